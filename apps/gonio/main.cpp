@@ -1,0 +1,96 @@
+// gonio: from measured reflectance to material parameters with error bars.
+#include <fmt/core.h>
+
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <stdexcept>
+
+#include "apps/gonio/command.h"
+#include "table/file_error.h"
+
+namespace gonio::app {
+
+void print(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
+    throw table::FileError("stdout: could not be written: check the disk or the receiving program");
+  }
+}
+
+void print_json(const nlohmann::ordered_json& json) { print(json.dump(2) + "\n"); }
+
+void print_note(std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stderr);
+  std::fputc('\n', stderr);
+}
+
+namespace {
+
+/// The command line as it can be pasted back into a shell.
+std::string quoted_command_line(int argc, char** argv) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
+  std::string line = "gonio";
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    line += ' ';
+    if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) {
+      if (c == '\'') {
+        line += "'\\''";
+      } else {
+        line += c;
+      }
+    }
+    line += '\'';
+  }
+  return line;
+}
+
+int run(int argc, char** argv) {
+  Invocation invocation{.command_line = quoted_command_line(argc, argv)};
+  CLI::App app{"From measured reflectance to material parameters with error bars."};
+  app.name("gonio");
+  app.set_version_flag("--version", "gonio " GONIO_VERSION);
+  app.require_subcommand(1);
+  add_info_command(app, invocation);
+  add_fit_command(app, invocation);
+  add_eval_command(app, invocation);
+  add_models_command(app, invocation);
+  add_synth_command(app, invocation);
+  try {
+    app.parse(argc, argv);
+    if (std::fflush(stdout) != 0) print("");
+  } catch (const CLI::Success& request) {
+    return app.exit(request);
+  } catch (const CLI::ParseError& error) {
+    print_note(fmt::format("gonio: {} (gonio --help says what there is)", error.what()));
+    return 2;
+  }
+  return invocation.exit_status;
+}
+
+}  // namespace
+}  // namespace gonio::app
+
+int main(int argc, char** argv) {
+  // A file size limit and a closed pipe are reported like a full disk, not by a signal.
+  std::signal(SIGXFSZ, SIG_IGN);
+  try {
+    return gonio::app::run(argc, argv);
+  } catch (const std::invalid_argument& error) {
+    gonio::app::print_note(fmt::format("gonio: {}", error.what()));
+    return 2;
+  } catch (const std::bad_alloc&) {
+    gonio::app::print_note("gonio: out of memory");
+    return 3;
+  } catch (const std::exception& error) {
+    gonio::app::print_note(fmt::format("gonio: {}", error.what()));
+    return 3;
+  }
+}

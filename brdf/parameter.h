@@ -1,0 +1,25 @@
+// What a parameter of a term is: the name users write, its unit, bounds, meaning and source.
+#pragma once
+
+#include <string_view>
+
+namespace gonio::brdf {
+
+/// How a search walks along a parameter: `logarithmic` for scales such as a roughness.
+enum class Scale { linear, logarithmic };
+
+struct Parameter {
+  std::string_view name;
+  std::string_view unit;
+  /// Closed bounds within which the term may be evaluated; infinity where there is none.
+  double lower;
+  double upper;
+  /// Where a search for start values looks; unused for amplitudes, which are solved for.
+  double search_lower;
+  double search_upper;
+  Scale scale;
+  std::string_view meaning;
+  std::string_view source;
+};
+
+}  // namespace gonio::brdf

@@ -1,0 +1,35 @@
+// The project's own table: CSV with a `# gonio-table 1` header. See docs/formats.md.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "table/read.h"
+#include "table/sample_table.h"
+
+namespace gonio::table {
+
+/// True if the content starts like a gonio-table (a byte order mark and blank lines may precede).
+bool is_gonio_csv(std::string_view content);
+
+/// Parses a gonio-table. `path` is for messages and provenance. Throws FileError.
+SampleTable read_gonio_csv(std::string_view content, const std::string& path,
+                           const ReadOptions& options);
+
+/// A further column of an echoed table: one value per sample, in f_r (1/sr).
+struct ExtraColumn {
+  std::string name;
+  std::span<const double> values;
+};
+
+/// Writes `table` as a gonio-table of quantity brdf through `write`, in pieces. Angles are
+/// the table's own text where it was kept, else degrees that read back to the same direction to
+/// rounding. Holes and masked holes are empty fields; so is a NaN of an extra column. Numbers
+/// have the fewest digits that read back to the same bits. The extra columns follow the
+/// channels: a reader of the result takes them for channels.
+void write_gonio_csv(const SampleTable& table, std::span<const ExtraColumn> extra_columns,
+                     const std::function<void(std::string_view)>& write);
+
+}  // namespace gonio::table

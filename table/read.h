@@ -1,0 +1,24 @@
+// Reading a table of whatever format: the format is told by the content, never by the ending.
+#pragma once
+
+#include <string>
+
+#include "table/sample_table.h"
+
+namespace gonio::table {
+
+struct ReadOptions {
+  /// Keep each row's angles as the file wrote them, for commands that echo a table.
+  bool keep_angle_text = false;
+  /// Threads for parsing; 0: as many as the machine has. The result has the same bits for any.
+  int threads = 0;
+};
+
+/// Reads `path`. Throws FileError when it is no readable file, no known format, or not valid.
+/// The sha256 of the bytes is left empty here: see sha256_of_file().
+SampleTable read(const std::string& path, const ReadOptions& options = {});
+
+/// The SHA-256 of the file's bytes in lower-case hexadecimal. Throws FileError.
+std::string sha256_of_file(const std::string& path);
+
+}  // namespace gonio::table

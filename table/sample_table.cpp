@@ -1,0 +1,46 @@
+#include "table/sample_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace gonio::table {
+
+std::string_view name(MaskReason reason) {
+  switch (reason) {
+    case MaskReason::none: return "none";
+    case MaskReason::horizon: return "horizon";
+    case MaskReason::hole: return "hole";
+    case MaskReason::extrapolated: return "extrapolated";
+  }
+  return "";
+}
+
+std::string_view name(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::brdf: return "brdf";
+    case Quantity::brdf_cos: return "brdf_cos";
+    case Quantity::reflectance_factor: return "reflectance_factor";
+  }
+  return "";
+}
+
+std::string_view name(AngleUnit unit) { return unit == AngleUnit::degrees ? "deg" : "rad"; }
+
+void DirectionArray::resize(std::size_t count) {
+  x.resize(count);
+  y.resize(count);
+  z.resize(count);
+}
+
+void DirectionArray::set(std::size_t i, const brdf::Direction<double>& d) {
+  x[i] = d.x;
+  y[i] = d.y;
+  z[i] = d.z;
+}
+
+SampleFilter::SampleFilter(const SampleTable& table, double max_theta_deg)
+    : table_(&table),
+      min_cos_(std::cos(std::min(max_theta_deg + 1e-6, 90.0) * std::numbers::pi / 180)) {}
+
+}  // namespace gonio::table
