@@ -9,6 +9,7 @@
 // that alpha = 1e-4 loses no digits. With unit amplitude rho_s = 1; units 1/sr.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -66,14 +67,20 @@ struct WardApproxLobe {
   template <class S, class D>
   static S value(const S& alpha_x, const S& alpha_y, const Direction<D>& wi,
                  const Direction<D>& wo) {
+    using std::abs;
     using std::sqrt;
     const Direction<D> h = half_vector(wi, wo);
-    const D length = sqrt(h.x * h.x + h.y * h.y + h.z * h.z);
-    const S u = S(h.x / length) / alpha_x;
-    const S v = S(h.y / length) / alpha_y;
+    // Scaled: the squares of a half vector between opposite grazing directions would underflow.
+    const D scale = std::max({D(abs(h.x)), D(abs(h.y)), h.z});
+    const D x = h.x / scale;
+    const D y = h.y / scale;
+    const D z = h.z / scale;
+    const D length = sqrt(x * x + y * y + z * z);
+    const S u = S(x / length) / alpha_x;
+    const S v = S(y / length) / alpha_y;
     const D roots = sqrt(wi.z) * sqrt(wo.z);
     return ward_detail::gaussian_over<D>(
-        S((u * u + v * v) * (D(2) / (D(1) + h.z / length))),
+        S((u * u + v * v) * (D(2) / (D(1) + z / length))),
         S(alpha_x * alpha_y * (D(4) * std::numbers::pi_v<D> * roots)));
   }
 };
@@ -157,10 +164,10 @@ struct IsotropicWard {
                               "sqrt(2), the same in all directions")};
 
   template <class S, class D>
-  static std::array<S, 1> basis(const std::array<S, 1>& shape, const Direction<D>& wi,
+  static std::array<S, 1> basis(const std::array<S, 1>& alpha, const Direction<D>& wi,
                                 const Direction<D>& wo) {
     if (!above_horizon(wi, wo)) return {S(0)};
-    return {Lobe::value(shape[0], shape[0], wi, wo)};
+    return {Lobe::value(alpha[0], alpha[0], wi, wo)};
   }
 };
 
@@ -177,10 +184,10 @@ struct AnisotropicWard {
       ward_roughness("alpha_y", "roughness along the bitangent y (across the brushing)")};
 
   template <class S, class D>
-  static std::array<S, 1> basis(const std::array<S, 2>& shape, const Direction<D>& wi,
+  static std::array<S, 1> basis(const std::array<S, 2>& alpha, const Direction<D>& wi,
                                 const Direction<D>& wo) {
     if (!above_horizon(wi, wo)) return {S(0)};
-    return {Lobe::value(shape[0], shape[1], wi, wo)};
+    return {Lobe::value(alpha[0], alpha[1], wi, wo)};
   }
 };
 

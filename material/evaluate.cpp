@@ -1,0 +1,25 @@
+#include "material/evaluate.h"
+
+namespace gonio::material {
+
+brdf::BoundModel bind(const Material& material) {
+  std::vector<brdf::NamedValues> values;
+  for (const ParameterValue& p : material.parameters) values.push_back({p.name, p.value});
+  return {brdf::Model(material.model), material.channels.size(), values};
+}
+
+std::vector<std::vector<double>> evaluate(const Material& material,
+                                          const table::SampleTable& table) {
+  const brdf::BoundModel model = bind(material);
+  std::vector<std::vector<double>> result(model.channel_count(), std::vector<double>(table.size()));
+  std::vector<double> f_r(model.channel_count());
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    // A cosine that only rounding keeps from 0 would make a lobe huge.
+    if (table.mask[i] == table::MaskReason::horizon) continue;
+    model.f_r(table.wi[i], table.wo[i], f_r);
+    for (std::size_t c = 0; c < f_r.size(); ++c) result[c][i] = f_r[c];
+  }
+  return result;
+}
+
+}  // namespace gonio::material

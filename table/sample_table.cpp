@@ -33,6 +33,12 @@ void DirectionArray::resize(std::size_t count) {
   z.resize(count);
 }
 
+void DirectionArray::push_back(const brdf::Direction<double>& d) {
+  x.push_back(d.x);
+  y.push_back(d.y);
+  z.push_back(d.z);
+}
+
 void DirectionArray::set(std::size_t i, const brdf::Direction<double>& d) {
   x[i] = d.x;
   y[i] = d.y;

@@ -35,6 +35,7 @@ struct DirectionArray {
   std::size_t size() const { return x.size(); }
   void resize(std::size_t count);
   brdf::Direction<double> operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+  void push_back(const brdf::Direction<double>& d);
   void set(std::size_t i, const brdf::Direction<double>& d);
 };
 

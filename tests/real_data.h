@@ -12,9 +12,9 @@ std::string real_data(const std::string& relative);
 }  // namespace gonio::tests
 
 /// Sets `path` to real data, or skips the test, naming what is missing.
-#define GONIO_REAL_DATA_OR_SKIP(path, relative)                                      \
-  const std::string path = ::gonio::tests::real_data(relative);                      \
-  if (path.empty()) {                                                                \
-    GTEST_SKIP() << "real data '" << (relative)                                      \
-                 << "' not found: set GONIO_DATA to the folder that holds it";       \
+#define GONIO_REAL_DATA_OR_SKIP(path, relative)                                \
+  const std::string path = ::gonio::tests::real_data(relative);                \
+  if ((path).empty()) {                                                        \
+    GTEST_SKIP() << "real data '" << (relative)                                \
+                 << "' not found: set GONIO_DATA to the folder that holds it"; \
   }

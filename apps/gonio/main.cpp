@@ -12,10 +12,16 @@
 
 namespace gonio::app {
 
+namespace {
+
+[[noreturn]] void fail_to_print() {
+  throw table::FileError("stdout: could not be written: check the disk or the receiving program");
+}
+
+}  // namespace
+
 void print(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) {
-    throw table::FileError("stdout: could not be written: check the disk or the receiving program");
-  }
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail_to_print();
 }
 
 void print_json(const nlohmann::ordered_json& json) { print(json.dump(2) + "\n"); }
@@ -65,7 +71,7 @@ int run(int argc, char** argv) {
   add_synth_command(app, invocation);
   try {
     app.parse(argc, argv);
-    if (std::fflush(stdout) != 0) print("");
+    if (std::fflush(stdout) != 0) fail_to_print();
   } catch (const CLI::Success& request) {
     return app.exit(request);
   } catch (const CLI::ParseError& error) {

@@ -1,4 +1,185 @@
+// gonio models: the terms, the models composed of them, and what each parameter means.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
 #include "apps/gonio/command.h"
+#include "brdf/bound_model.h"
+
 namespace gonio::app {
-void add_models_command(CLI::App&, Invocation&) {}
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr std::size_t text_width = 100;
+/// What the formulas of the specular terms are written with.
+constexpr std::string_view symbols =
+    "h = wi + wo; E = exp(-((hx/ax)^2 + (hy/ay)^2) / hz^2); ax = ay = alpha without -aniso";
+
+struct ModelsOptions {
+  std::string model;
+  bool json = false;
+};
+
+std::string_view kind_of(const brdf::TermDescription& term) {
+  return term.kind == brdf::TermKind::diffuse ? "diffuse" : "specular";
 }
+
+// Readable -----------------------------------------------------------------------------------
+
+/// The words of `text` from column `indent` on, broken before text_width.
+std::string wrapped(std::string_view text, std::size_t indent) {
+  std::string result;
+  std::size_t column = indent;
+  while (!text.empty()) {
+    const std::string_view word = text.substr(0, text.find(' '));
+    if (column > indent && column + 1 + word.size() > text_width) {
+      result += "\n" + std::string(indent, ' ');
+      column = indent;
+    } else if (column > indent) {
+      result += ' ';
+      ++column;
+    }
+    result += word;
+    column += word.size();
+    text.remove_prefix(std::min(word.size() + 1, text.size()));
+  }
+  return result;
+}
+
+std::string bound_text(double value) {
+  return std::isinf(value) ? std::string() : fmt::format("{}", value);
+}
+
+std::string bounds_text(const brdf::Parameter& parameter) {
+  return bound_text(parameter.lower) + ".." + bound_text(parameter.upper);
+}
+
+std::string term_row(const brdf::TermEntry& term) {
+  const std::string head =
+      fmt::format("  {:<18} {:<9} ", term.description.name, kind_of(term.description));
+  return head + wrapped(term.description.summary, head.size()) + "\n";
+}
+
+std::string model_row(const std::string& name) {
+  const brdf::Model model(name);
+  std::string row = fmt::format("  {:<27}", name);
+  for (const brdf::OrderedParameter& p : brdf::ordered_parameters(model)) {
+    row += " " + p.parameter->name;
+  }
+  return row + "\n";
+}
+
+void print_list() {
+  std::string text = "Terms, with unit amplitude and in 1/sr\n";
+  for (const brdf::TermEntry& term : brdf::all_terms()) text += term_row(term);
+  text += fmt::format("  {}\n\nModels and their parameters\n", symbols);
+  for (const std::string& name : brdf::model_names()) text += model_row(name);
+  text +=
+      "\nA model is diffuse, specular or diffuse+specular; a specular term alone brings its\n"
+      "author's diffuse term. 'gonio models MODEL' explains the parameters.\n";
+  print(text);
+}
+
+std::string formula(const brdf::Model& model) {
+  std::string sum;
+  for (const brdf::ModelParameter& amplitude : model.amplitudes()) {
+    if (!sum.empty()) sum += " + ";
+    const auto& term = model.terms()[amplitude.term]->description;
+    sum += fmt::format("{} {}(wi, wo)", amplitude.name, term.name);
+  }
+  return sum;
+}
+
+std::string term_paragraph(const brdf::TermDescription& term) {
+  std::string text =
+      fmt::format("\n{} ({})\n  {}\n", term.name, kind_of(term), wrapped(term.summary, 2));
+  if (term.kind == brdf::TermKind::specular) text += fmt::format("  {}\n", symbols);
+  return text + fmt::format("  {}\n", wrapped(term.source, 2));
+}
+
+std::string parameter_row(const brdf::OrderedParameter& p) {
+  const brdf::Parameter& descriptor = p.parameter->descriptor;
+  const std::string head =
+      fmt::format("  {:<9} {:<5} {:<10} {:<12} ", p.parameter->name, descriptor.unit,
+                  bounds_text(descriptor), p.per_channel ? "per channel" : "shared");
+  const std::string indent(head.size(), ' ');
+  return fmt::format("{}{}\n{}({})\n", head, wrapped(descriptor.meaning, head.size()), indent,
+                     wrapped(descriptor.source, head.size()));
+}
+
+void print_model(const brdf::Model& model) {
+  std::string text =
+      fmt::format("{}\n  f_r = {}, in 1/sr\n", model.name(), wrapped(formula(model), 8));
+  for (const brdf::TermEntry* term : model.terms()) text += term_paragraph(term->description);
+  text += fmt::format("\n  {:<9} {:<5} {:<10} {:<12} {}\n", "parameter", "unit", "bounds", "values",
+                      "meaning (source)");
+  for (const auto& p : brdf::ordered_parameters(model)) text += parameter_row(p);
+  print(text);
+}
+
+// JSON ---------------------------------------------------------------------------------------
+
+ordered_json json_of(const brdf::TermDescription& term) {
+  return {{"name", term.name},
+          {"kind", kind_of(term)},
+          {"summary", term.summary},
+          {"source", term.source}};
+}
+
+/// An infinite bound is null.
+ordered_json bound_json(double bound) {
+  return std::isinf(bound) ? ordered_json() : ordered_json(bound);
+}
+
+ordered_json json_of(const brdf::Model& model, const brdf::OrderedParameter& p) {
+  const brdf::Parameter& descriptor = p.parameter->descriptor;
+  return {{"name", p.parameter->name},
+          {"term", model.terms()[p.parameter->term]->description.name},
+          {"unit", descriptor.unit},
+          {"lower", bound_json(descriptor.lower)},
+          {"upper", bound_json(descriptor.upper)},
+          {"per_channel", p.per_channel},
+          {"meaning", descriptor.meaning},
+          {"source", descriptor.source}};
+}
+
+ordered_json json_of(const brdf::Model& model) {
+  ordered_json terms = ordered_json::array();
+  for (const brdf::TermEntry* term : model.terms()) terms.push_back(json_of(term->description));
+  ordered_json parameters = ordered_json::array();
+  for (const auto& p : brdf::ordered_parameters(model)) parameters.push_back(json_of(model, p));
+  return {{"model", model.name()}, {"terms", terms}, {"parameters", parameters}};
+}
+
+ordered_json json_of_all() {
+  ordered_json terms = ordered_json::array();
+  for (const brdf::TermEntry& term : brdf::all_terms()) terms.push_back(json_of(term.description));
+  ordered_json models = ordered_json::array();
+  for (const std::string& name : brdf::model_names()) models.push_back(json_of(brdf::Model(name)));
+  return {{"terms", terms}, {"models", models}};
+}
+
+void models(const ModelsOptions& options) {
+  if (options.model.empty()) {
+    options.json ? print_json(json_of_all()) : print_list();
+    return;
+  }
+  const brdf::Model model(options.model);
+  options.json ? print_json(json_of(model)) : print_model(model);
+}
+
+}  // namespace
+
+void add_models_command(CLI::App& app, Invocation& /*invocation*/) {
+  auto options = std::make_shared<ModelsOptions>();
+  CLI::App* command =
+      app.add_subcommand("models", "List the models, or explain the parameters of one");
+  command->add_option("MODEL", options->model, "The model to explain");
+  command->add_flag("--json", options->json, "Print the result as JSON");
+  command->callback([options] { models(*options); });
+}
+
+}  // namespace gonio::app

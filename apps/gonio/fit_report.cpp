@@ -1,0 +1,88 @@
+#include "apps/gonio/fit_report.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gonio::app {
+namespace {
+
+/// A value with as many decimals as its standard deviation makes sense of (two digits of it), and
+/// six digits where it has none.
+int decimals_for(double value, const std::optional<double>& stddev) {
+  const double scale = stddev && *stddev > 0 ? *stddev / 10 : std::abs(value) * 1e-5;
+  if (!(scale > 0)) return 4;
+  return std::clamp(int(std::ceil(-std::log10(scale))), 0, 12);
+}
+
+std::string row_of(const fit::FitResult& result, std::size_t u) {
+  const fit::Unknown& unknown = result.unknowns[u];
+  const double value = result.values[unknown];
+  const std::optional<double>& stddev = result.uncertainty.stddev[u];
+  const int decimals = std::max(decimals_for(value, stddev), 4);
+  std::string row = fmt::format("  {:<14} {:>14.{}f}", unknown.name, value, decimals);
+  if (!stddev) return row + fmt::format(" {:>14}   {}\n", "-", "not determined or fixed");
+  const auto& [low, high] = *result.uncertainty.interval95[u];
+  return row + fmt::format(" {:>14.{}f}   {:.{}f} .. {:.{}f}\n", *stddev, decimals, low, decimals,
+                           high, decimals);
+}
+
+std::string_view describe(fit::Covariance kind) {
+  switch (kind) {
+    case fit::Covariance::known_sigma: return "intervals from the known sigma";
+    case fit::Covariance::residual: return "intervals from the residuals' variance";
+    case fit::Covariance::sandwich: return "sandwich intervals";
+    case fit::Covariance::automatic: break;
+  }
+  return "";
+}
+
+std::string metric_unit(fit::Metric metric) {
+  return metric == fit::Metric::chi2 ? "sigma" : "1/sr";
+}
+
+}  // namespace
+
+std::string report_table(const table::SampleTable& table, const fit::FitResult& result,
+                         double max_theta_deg) {
+  return fmt::format("{}: {}, {} samples, {} used (theta up to {} deg), channel{} {}\n",
+                     table.provenance.path, table.provenance.format, result.samples, result.used,
+                     max_theta_deg, table.channels.size() == 1 ? "" : "s",
+                     fmt::join(table.channels, ", "));
+}
+
+std::string report_fit(const fit::FitResult& result) {
+  std::string text = fmt::format(
+      "\n{}, metric {}, {}, {} in {} iteration{}\n\n", result.model.name(), name(result.metric),
+      describe(result.uncertainty.kind), result.converged ? "converged" : "NOT converged",
+      result.iterations, result.iterations == 1 ? "" : "s");
+  text += fmt::format("  {:<14} {:>14} {:>14}   {}\n", "parameter", "estimate", "std deviation",
+                      "95 % interval");
+  for (std::size_t u = 0; u < result.unknowns.size(); ++u) text += row_of(result, u);
+  text += "\n  root mean square error:";
+  for (const auto& [metric, error] : result.errors) text += fmt::format(" {} {:.4g} ", metric, error);
+  text += "\n";
+  if (result.uncertainty.reduced_chi2) {
+    text += fmt::format("  reduced chi-square: {:.4g}\n", *result.uncertainty.reduced_chi2);
+  }
+  return text;
+}
+
+std::string report_ranking(const std::vector<fit::FitResult>& results) {
+  std::string text = fmt::format(
+      "\n  {:<32} {:>10} {:>18} {:>10}\n", "model, best first", "parameters",
+      fmt::format("error in {}", metric_unit(results.front().metric)), "to best");
+  for (const fit::FitResult& result : results) {
+    text += fmt::format("  {:<32} {:>10} {:>18.6g} {:>9.3f}x{}\n", result.model.name(),
+                        result.unknowns.size(), result.metric_error,
+                        results.front().metric_error > 0
+                            ? result.metric_error / results.front().metric_error
+                            : 1.0,
+                        result.converged ? "" : "  not converged");
+  }
+  return text;
+}
+
+}  // namespace gonio::app

@@ -1,0 +1,20 @@
+// What gonio fit prints for a person.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fit/fit.h"
+#include "table/sample_table.h"
+
+namespace gonio::app {
+
+/// The table in a line: what was read and what of it was used.
+std::string report_table(const table::SampleTable& table, const fit::FitResult& result,
+                         double max_theta_deg);
+/// One fit: its parameters with standard deviation and interval, its errors.
+std::string report_fit(const fit::FitResult& result);
+/// Several fits, best first, a line each.
+std::string report_ranking(const std::vector<fit::FitResult>& results);
+
+}  // namespace gonio::app

@@ -1,0 +1,56 @@
+// A model's basis functions, and their derivatives by the shape, for many directions at once.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "brdf/model.h"
+
+namespace gonio::fit {
+
+/// Rows that are evaluated and compressed at a time: small enough for the first-level caches.
+inline constexpr std::size_t chunk_rows = 512;
+
+/// Up to chunk_rows pairs of directions.
+struct DirectionChunk {
+  std::size_t count = 0;
+  alignas(64) std::array<double, chunk_rows> wi_x, wi_y, wi_z, wo_x, wo_y, wo_z;
+
+  brdf::Direction<double> wi(std::size_t i) const { return {wi_x[i], wi_y[i], wi_z[i]}; }
+  brdf::Direction<double> wo(std::size_t i) const { return {wo_x[i], wo_y[i], wo_z[i]}; }
+};
+
+/// Evaluates into columns: first the basis functions, one per amplitude of the model, then each
+/// derivative d basis[amplitude] / d shape[parameter] that is not zero by construction.
+class BatchModel {
+ public:
+  /// What a derivative column holds.
+  struct Derivative {
+    std::size_t amplitude;
+    std::size_t shape;
+  };
+
+  explicit BatchModel(const brdf::Model& model);
+
+  const brdf::Model& model() const { return *model_; }
+  std::size_t amplitude_count() const { return model_->amplitudes().size(); }
+  std::size_t shape_count() const { return model_->shape().size(); }
+  std::span<const Derivative> derivatives() const { return derivatives_; }
+  std::size_t column_count(bool with_derivatives) const {
+    return amplitude_count() + (with_derivatives ? derivatives_.size() : 0);
+  }
+
+  /// Writes the first chunk.count rows of the first column_count() columns of `columns`.
+  void evaluate(const DirectionChunk& chunk, std::span<const double> shape, bool with_derivatives,
+                Eigen::Ref<Eigen::MatrixXd> columns) const;
+
+ private:
+  const brdf::Model* model_;
+  std::vector<Derivative> derivatives_;
+};
+
+}  // namespace gonio::fit

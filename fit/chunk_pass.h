@@ -1,0 +1,58 @@
+// One pass over the samples, chunk by chunk, on several threads; the same bits for any number.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "fit/parallel.h"
+#include "fit/weighted_samples.h"
+
+namespace gonio::fit {
+
+struct PassOptions {
+  int threads = 1;
+  /// Called when a pass begins; what it returns is told the share of the pass that is done, by one
+  /// thread at a time.
+  std::function<std::function<void(double)>()> on_pass;
+};
+
+/// Folds every chunk into a state: make_state() begins a task, fold(chunk, state) adds a chunk that
+/// is not empty. A task is a fixed number of consecutive chunks, so that the order of all sums is
+/// fixed. Returns the tasks' states in the table's order, at least one.
+template <class MakeState, class Fold>
+auto chunk_pass(const WeightedSamples& samples, const PassOptions& options,
+                const MakeState& make_state, const Fold& fold) {
+  constexpr std::size_t chunks_per_task = 32;
+  using State = decltype(make_state());
+  const std::size_t chunks = samples.chunk_count();
+  const std::size_t tasks =
+      std::max<std::size_t>((chunks + chunks_per_task - 1) / chunks_per_task, 1);
+  const std::function<void(double)> on_share = options.on_pass ? options.on_pass() : nullptr;
+  std::mutex share_mutex;
+  std::size_t done = 0;
+  std::vector<std::optional<State>> results(tasks);
+  parallel_for(tasks, options.threads, [&](std::size_t task) {
+    State state = make_state();
+    SampleChunk chunk(samples.channel_count());
+    const std::size_t last = std::min((task + 1) * chunks_per_task, chunks);
+    for (std::size_t i = task * chunks_per_task; i < last; ++i) {
+      samples.gather(i, chunk);
+      if (chunk.directions.count > 0) fold(chunk, state);
+    }
+    results[task] = std::move(state);
+    if (on_share) {
+      const std::lock_guard lock(share_mutex);
+      on_share(double(++done) / double(tasks));
+    }
+  });
+  std::vector<State> states;
+  states.reserve(tasks);
+  for (std::optional<State>& state : results) states.push_back(std::move(*state));
+  return states;
+}
+
+}  // namespace gonio::fit

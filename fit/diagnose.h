@@ -1,0 +1,15 @@
+// The warnings of a fit: what its numbers cannot be trusted for.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "fit/fit.h"
+
+namespace gonio::fit {
+
+/// One sentence for each doubt, the gravest first.
+std::vector<std::string> diagnose(const FitResult& result, const Box& box,
+                                  const Identifiability& identifiability);
+
+}  // namespace gonio::fit

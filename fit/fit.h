@@ -1,0 +1,50 @@
+// From a table to the parameters of a model, with error bars.
+//
+//   SampleTable table = table::read("brass.csv");
+//   FitResult result = fit::fit(brdf::Model("ward-aniso"), table, {});
+//
+// Ceres moves the shape; the amplitudes are projected out (projection.h), and the table is
+// compressed to a few rows (compression.h), so that the memory of a fit is the table plus a constant.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "brdf/model.h"
+#include "fit/errors.h"
+#include "fit/options.h"
+#include "fit/parameters.h"
+#include "fit/uncertainty.h"
+#include "table/sample_table.h"
+
+namespace gonio::fit {
+
+struct FitResult {
+  brdf::Model model;
+  std::vector<std::string> channels;
+  Metric metric;
+  /// All the unknowns in a row; `uncertainty` is indexed like it.
+  std::vector<Unknown> unknowns;
+  ParameterValues values;
+  Uncertainty uncertainty;
+  /// Half the weighted sum of squared residuals under the metric.
+  double cost;
+  /// Root mean square of the residuals under the metric, weighted.
+  double metric_error;
+  ErrorList errors;
+  std::size_t samples;  // in the table
+  std::size_t used;
+  bool converged;
+  int iterations;  // of the solver, over the whole table
+  int passes;      // over the whole table, all in all
+  /// What a user should know before believing the numbers, one sentence each.
+  std::vector<std::string> warnings;
+};
+
+/// Fits one model. Throws std::invalid_argument for options that do not fit the model or the table,
+/// table::FileError if the table has too few samples for the unknowns. A fit that did not converge
+/// is returned with converged = false.
+FitResult fit(const brdf::Model& model, const table::SampleTable& table, const Options& options);
+
+}  // namespace gonio::fit

@@ -1,0 +1,74 @@
+// What a user can ask of a fit.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gonio::fit {
+
+/// What is minimised: the sum of squares of
+///   l2         f - model
+///   cosine_l2  (f - model) cos_i (Ngan, Durand & Matusik 2005)
+///   chi2       (f - model) / sigma
+/// each times the sample's weight where the table carries weights.
+enum class Metric { l2, cosine_l2, chi2 };
+std::string_view name(Metric metric);
+/// Throws std::invalid_argument that lists the metrics.
+Metric metric_from_name(std::string_view name);
+
+/// Where the covariance of the parameters comes from, J being the Jacobian of the residuals r:
+///   known_sigma  (J'J)^-1: the residuals have unit variance (chi2 with honest sigma)
+///   residual     (J'J)^-1 times the residual variance: equal, unknown variance
+///   sandwich     (J'J)^-1 (sum of scores' outer products) (J'J)^-1 (White 1980): valid for
+///                unequal variance and for a model that does not fit within the noise; the
+///                channels of one sample may err together
+///   automatic    known_sigma for chi2, unless the residuals are far larger than sigma;
+///                sandwich else
+enum class Covariance { automatic, known_sigma, residual, sandwich };
+std::string_view name(Covariance covariance);
+/// Throws std::invalid_argument that lists the kinds.
+Covariance covariance_from_name(std::string_view name);
+
+/// sigma^2 = (relative * f)^2 + absolute^2, f being the model's value: with the measured value
+/// instead, low readings would count for more and pull every amplitude down by 2 relative^2.
+struct Noise {
+  double relative;  // 1
+  double absolute;  // 1/sr
+};
+
+/// One parameter, or one channel's part of it, by name: "alpha_x", "rho_d" (every channel),
+/// "rho_d.R" (one channel).
+struct ParameterSetting {
+  std::string parameter;
+  double value;
+};
+
+struct ParameterBounds {
+  std::string parameter;
+  double lower, upper;
+};
+
+/// How far a fit has come: the number of the pass over the table, from 1, and the share of it
+/// that is done. Called from one thread at a time, not always the same one.
+using Progress = std::function<void(int pass, double share)>;
+
+struct Options {
+  Metric metric = Metric::cosine_l2;
+  Covariance covariance = Covariance::automatic;
+  /// Samples with a polar angle beyond it are left out (inclusive, + 1e-6 deg).
+  double max_theta_deg = 80;
+  /// For chi2: instead of the table's sigma.
+  std::optional<Noise> noise = {};
+  std::vector<ParameterSetting> fixed = {};
+  /// Start values of shape parameters; the others are searched. Amplitudes need none.
+  std::vector<ParameterSetting> start = {};
+  std::vector<ParameterBounds> bounds = {};
+  /// 0: as many as the machine has. The result has the same bits for any number.
+  int threads = 0;
+  Progress progress = {};
+};
+
+}  // namespace gonio::fit

@@ -1,0 +1,51 @@
+// The unknowns of a fit in one row: per term its amplitudes, channel by channel, then its shape.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "brdf/model.h"
+#include "fit/options.h"
+
+namespace gonio::fit {
+
+/// One scalar unknown.
+struct Unknown {
+  std::string name;       // "rho_d.R", or "alpha_x"
+  std::string parameter;  // "rho_d", "alpha_x"
+  bool is_shape;
+  std::size_t index;    // among model.shape() or model.amplitudes()
+  std::size_t channel;  // of an amplitude
+};
+
+std::vector<Unknown> unknowns_of(const brdf::Model& model, std::span<const std::string> channels);
+
+/// Values for all the unknowns of a model.
+struct ParameterValues {
+  std::vector<double> shape;   // as in model.shape()
+  Eigen::MatrixXd amplitudes;  // [amplitude, channel], as in model.amplitudes()
+
+  double operator[](const Unknown& unknown) const;
+};
+
+/// The closed box that the unknowns are confined to; lower = upper where one is fixed.
+struct Box {
+  std::vector<double> shape_lower, shape_upper;
+  Eigen::MatrixXd amplitude_lower, amplitude_upper;
+
+  bool is_fixed(const Unknown& unknown) const;
+  double lower(const Unknown& unknown) const;
+  double upper(const Unknown& unknown) const;
+};
+
+/// The model's own bounds, narrowed by options.bounds and options.fixed. Throws
+/// std::invalid_argument for a parameter that the model has not, a value outside the bounds, or
+/// bounds that leave nothing.
+Box box_of(const brdf::Model& model, std::span<const std::string> channels,
+           const Options& options);
+
+}  // namespace gonio::fit

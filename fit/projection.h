@@ -1,0 +1,40 @@
+// Variable projection (Golub & Pereyra 1973): for a given shape the amplitudes are solved by
+// bounded linear least squares, and what remains is a problem in the shape alone, with Kaufman's
+// (1975) Jacobian. Everything happens in the compressed problem of a few rows per channel.
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+#include "fit/batch_model.h"
+#include "fit/compression.h"
+#include "fit/parameters.h"
+
+namespace gonio::fit {
+
+struct Projected {
+  Eigen::MatrixXd amplitudes;  // [amplitude, channel], within their bounds
+  /// The compressed residuals y - B beta: per channel the rows of the factor, then the part that
+  /// no parameter reaches. Their squares sum to the full problem's.
+  Eigen::VectorXd residuals;
+  /// Kaufman's Jacobian of the residuals by the shape, [row, shape]: its J'r is the exact
+  /// gradient. Empty without derivatives.
+  Eigen::MatrixXd jacobian;
+
+  /// Half the sum of squares, as Ceres counts it.
+  double cost() const { return residuals.squaredNorm() / 2; }
+};
+
+/// Projects the amplitudes out, within the box. `compressed` must hold the derivative columns if
+/// `with_jacobian`.
+Projected project(const Compressed& compressed, const BatchModel& model, const Box& box,
+                  bool with_jacobian);
+
+/// Minimises |matrix x - rhs|^2 subject to lower <= x <= upper (elementwise). Exact for the few
+/// unknowns it is meant for: the active sets are enumerated if the free solution is not inside.
+/// Unknowns that the matrix does not determine are 0, or the bound nearest to 0.
+Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& rhs,
+                                      const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
+
+}  // namespace gonio::fit

@@ -1,0 +1,65 @@
+// How sure each parameter is: the covariance of all the unknowns from the Jacobian at the optimum.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "fit/batch_model.h"
+#include "fit/options.h"
+#include "fit/parameters.h"
+#include "fit/solve.h"
+#include "fit/weighted_samples.h"
+
+namespace gonio::fit {
+
+/// What the directions of a table determine at given parameters: the singular value
+/// decomposition of the full Jacobian (all unknowns that are not fixed), columns scaled to 1.
+class Identifiability {
+ public:
+  Identifiability(const Compressed& compressed, const BatchModel& model, const Box& box,
+                  const ParameterValues& values, std::span<const Unknown> unknowns);
+
+  /// Unknowns that only a common change of which the data does not see, one group for each
+  /// such combination; a single one without any influence is a group of its own. Indices into the
+  /// unknowns.
+  const std::vector<std::vector<std::size_t>>& undetermined() const { return undetermined_; }
+  bool is_undetermined(std::size_t unknown) const;
+  /// Unknowns that are not fixed.
+  std::size_t free_count() const { return free_.size(); }
+  /// (J'J)^+ over all the unknowns, without the undetermined combinations; 0 in the rows and
+  /// columns of fixed ones.
+  const Eigen::MatrixXd& inverse() const { return inverse_; }
+
+ private:
+  std::vector<std::size_t> free_;
+  std::vector<std::vector<std::size_t>> undetermined_;
+  Eigen::MatrixXd inverse_;
+};
+
+struct Uncertainty {
+  /// Never automatic.
+  Covariance kind = Covariance::residual;
+  /// Per unknown; none where it is fixed or undetermined.
+  std::vector<std::optional<double>> stddev;
+  /// value -+ Student's t times stddev, cut at the bounds.
+  std::vector<std::optional<std::pair<double, double>>> interval95;
+  /// [unknown][unknown]; none where either has no stddev.
+  std::vector<std::vector<std::optional<double>>> correlation;
+  /// Sum of squared residuals over the degrees of freedom; only under chi2.
+  std::optional<double> reduced_chi2;
+  /// The residuals are larger than the known sigma explains, beyond 5 standard deviations.
+  bool misfit = false;
+};
+
+/// One pass over the samples for the sandwich, none else.
+Uncertainty uncertainty_of(const Solution& solution, const Identifiability& identifiability,
+                           const WeightedSamples& samples, const BatchModel& model, const Box& box,
+                           std::span<const Unknown> unknowns, const Options& options,
+                           const PassOptions& passes);
+
+}  // namespace gonio::fit

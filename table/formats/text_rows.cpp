@@ -1,0 +1,309 @@
+#include "table/formats/text_rows.h"
+
+#include <fmt/core.h>
+#include <sys/mman.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "table/file_error.h"
+#include "table/formats/number_text.h"
+#include "table/formats/row_fields.h"
+#include "table/formats/text_lines.h"
+
+namespace gonio::table {
+
+namespace {
+
+constexpr double horizon_tolerance_deg = 1e-6;
+constexpr std::size_t block_size = std::size_t{1} << 20;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Whole lines of the text.
+struct Block {
+  const char* begin;
+  const char* end;
+  std::size_t lines = 0;
+  std::size_t rows = 0;
+  std::size_t first_line = 0;
+  std::size_t first_row = 0;
+};
+
+const char* behind_line(const char* at, const char* end) {
+  const void* found = std::memchr(at, '\n', static_cast<std::size_t>(end - at));
+  return found == nullptr ? end : static_cast<const char*>(found) + 1;
+}
+
+/// True if the line at `at` is neither blank nor a comment.
+bool is_row(const char* at, const char* end) {
+  const char* first = skip_blanks(at, end);
+  return first != end && *first != '\n' && *first != '#';
+}
+
+std::vector<Block> cut_into_blocks(std::string_view text) {
+  std::vector<Block> blocks;
+  const char* const end = text.data() + text.size();
+  for (const char* begin = text.data(); begin != end;) {
+    const bool is_last = static_cast<std::size_t>(end - begin) <= block_size;
+    const char* block_end = is_last ? end : behind_line(begin + block_size, end);
+    blocks.push_back({begin, block_end});
+    begin = block_end;
+  }
+  return blocks;
+}
+
+void count_lines(Block& block) {
+  for (const char* at = block.begin; at != block.end;) {
+    if (is_row(at, block.end)) ++block.rows;
+    at = behind_line(at, block.end);
+    ++block.lines;
+  }
+}
+
+/// Gives each block the number of its first line and first row; returns the number of rows.
+std::size_t number_blocks(std::vector<Block>& blocks, std::size_t first_line) {
+  std::size_t row = 0;
+  for (Block& block : blocks) {
+    block.first_line = first_line;
+    block.first_row = row;
+    first_line += block.lines;
+    row += block.rows;
+  }
+  return row;
+}
+
+/// Gives `array` its size, in huge pages where the system has them: to touch fresh memory page by
+/// page would take a fifth of the time of reading a big table.
+void resize_fresh(std::vector<double>& array, std::size_t size) {
+  array.reserve(size);
+#ifdef MADV_HUGEPAGE
+  constexpr std::uintptr_t huge_page = std::uintptr_t{1} << 21;
+  const auto begin = reinterpret_cast<std::uintptr_t>(array.data());
+  const std::uintptr_t first = (begin + huge_page - 1) / huge_page * huge_page;
+  const std::uintptr_t last = (begin + size * sizeof(double)) / huge_page * huge_page;
+  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+#endif
+  array.resize(size);
+}
+
+/// Gives every array of the table its size; in parallel, since fresh memory is slow to touch.
+void resize(SampleTable& table, const Columns& columns, std::size_t rows, bool angle_text) {
+  table.values.resize(columns.values.size());
+  table.sigma.resize(columns.sigmas.size());
+  std::vector<std::vector<double>*> arrays{&table.wi.x, &table.wi.y, &table.wi.z,
+                                           &table.wo.x, &table.wo.y, &table.wo.z};
+  for (std::vector<double>& values : table.values) arrays.push_back(&values);
+  for (std::vector<double>& sigmas : table.sigma) arrays.push_back(&sigmas);
+  if (columns.weight) arrays.push_back(&table.weight);
+  tbb::parallel_for(std::size_t{0}, arrays.size(),
+                    [&](std::size_t i) { resize_fresh(*arrays[i], rows); });
+  table.mask.resize(rows, MaskReason::none);
+  if (angle_text) table.angle_text.resize(rows);
+}
+
+/// Turns the fields of a row into a sample.
+class SampleWriter {
+ public:
+  SampleWriter(const Columns& columns, Quantity quantity, AngleUnit unit, SampleTable& table)
+      : columns_(columns),
+        quantity_(quantity),
+        unit_(unit),
+        quarter_turn_(unit == AngleUnit::degrees ? 90 : std::numbers::pi / 2),
+        tolerance_(unit == AngleUnit::degrees ? horizon_tolerance_deg
+                                              : horizon_tolerance_deg * std::numbers::pi / 180),
+        table_(table) {}
+
+  RowProblem write(std::span<const double> fields, std::size_t i) {
+    if (const RowProblem problem = write_directions(fields, i); problem.fault != RowFault::none) {
+      return problem;
+    }
+    return write_values(fields, i);
+  }
+
+ private:
+  RowProblem write_directions(std::span<const double> fields, std::size_t i) {
+    std::array<double, 4> angle;
+    for (std::size_t a = 0; a < angle.size(); ++a) {
+      angle[a] = fields[columns_.angles[a]];
+      if (std::isnan(angle[a])) return {RowFault::empty_angle, columns_.angles[a]};
+    }
+    for (const Angle a : {theta_i, theta_o}) {
+      if (angle[a] < 0 || angle[a] > quarter_turn_ + tolerance_) {
+        return {RowFault::theta_range, columns_.angles[a]};
+      }
+      if (angle[a] >= quarter_turn_ - tolerance_) table_.mask[i] = MaskReason::horizon;
+    }
+    table_.wi.set(i, direction(angle[theta_i], angle[phi_i]));
+    table_.wo.set(i, direction(angle[theta_o], angle[phi_o]));
+    incidence_is_horizontal_ = angle[theta_i] >= quarter_turn_ - tolerance_;
+    return {};
+  }
+
+  brdf::Direction<double> direction(double theta, double phi) const {
+    return unit_ == AngleUnit::degrees ? brdf::direction_from_degrees(theta, phi)
+                                       : brdf::direction_from_radians(theta, phi);
+  }
+
+  /// What the file's numbers are divided by to give f_r; NaN where they cannot tell it.
+  double divisor(std::size_t i) const {
+    switch (quantity_) {
+      case Quantity::brdf:
+        return 1;
+      case Quantity::brdf_cos:
+        return incidence_is_horizontal_ ? nan : table_.wi.z[i];
+      case Quantity::reflectance_factor:
+        return std::numbers::pi;
+    }
+    return 1;
+  }
+
+  RowProblem write_values(std::span<const double> fields, std::size_t i) {
+    const double scale = divisor(i);
+    bool is_measured = false;
+    for (std::size_t c = 0; c < columns_.values.size(); ++c) {
+      const double written = fields[columns_.values[c]];
+      const double value = written / scale;
+      if (std::isinf(value)) return {RowFault::too_large, columns_.values[c]};
+      table_.values[c][i] = value;
+      if (std::isnan(written)) continue;
+      is_measured = true;
+      if (!columns_.sigmas.empty() && std::isnan(fields[columns_.sigmas[c]])) {
+        return {RowFault::empty_sigma, columns_.sigmas[c]};
+      }
+    }
+    if (!is_measured && table_.mask[i] == MaskReason::none) table_.mask[i] = MaskReason::hole;
+    for (std::size_t c = 0; c < columns_.sigmas.size(); ++c) {
+      const double sigma = fields[columns_.sigmas[c]] / scale;
+      if (sigma <= 0) return {RowFault::sigma_not_positive, columns_.sigmas[c]};
+      if (std::isinf(sigma)) return {RowFault::too_large, columns_.sigmas[c]};
+      table_.sigma[c][i] = sigma;
+    }
+    if (columns_.weight) return write_weight(fields[*columns_.weight], is_measured, i);
+    return {};
+  }
+
+  RowProblem write_weight(double weight, bool is_measured, std::size_t i) {
+    if (std::isnan(weight) && is_measured) return {RowFault::empty_weight, *columns_.weight};
+    if (weight < 0) return {RowFault::weight_negative, *columns_.weight};
+    table_.weight[i] = std::isnan(weight) ? 0 : weight;
+    return {};
+  }
+
+  const Columns& columns_;
+  Quantity quantity_;
+  AngleUnit unit_;
+  double quarter_turn_;
+  double tolerance_;
+  bool incidence_is_horizontal_ = false;
+  SampleTable& table_;
+};
+
+std::string angle_text(std::string_view line, const TextRows& rows) {
+  const std::vector<std::string_view> fields = split_fields(line, rows.separator);
+  const std::array<std::size_t, 4>& at = rows.columns.angles;
+  return fmt::format("{},{},{},{}", fields[at[0]], fields[at[1]], fields[at[2]], fields[at[3]]);
+}
+
+/// What the first bad line of a block is; line 0 if there is none.
+struct BadLine {
+  std::size_t number = 0;
+  RowProblem problem;
+  std::string_view text;
+};
+
+BadLine read_block(const Block& block, const TextRows& rows, SampleWriter writer,
+                   SampleTable& table) {
+  std::vector<double> fields(rows.columns.names.size());
+  std::size_t line = block.first_line;
+  std::size_t row = block.first_row;
+  for (const char* at = block.begin; at != block.end; ++line) {
+    const char* const begin = at;
+    if (!is_row(at, block.end)) {
+      at = behind_line(at, block.end);
+      continue;
+    }
+    RowProblem problem = read_fields(at, block.end, rows.separator, fields);
+    if (problem.fault == RowFault::none) problem = writer.write(fields, row);
+    at = behind_line(at, block.end);
+    const std::string_view text(begin, static_cast<std::size_t>(at - begin));
+    if (problem.fault != RowFault::none)
+      return {line, problem, trimmed(text.substr(0, text.find('\n')))};
+    if (!table.angle_text.empty())
+      table.angle_text[row] = angle_text(text.substr(0, text.find('\n')), rows);
+    ++row;
+  }
+  return {};
+}
+
+/// Reads all blocks; returns the first bad line of the file.
+BadLine read_blocks(const std::vector<Block>& blocks, const TextRows& rows,
+                    const SampleWriter& writer, SampleTable& table) {
+  std::vector<BadLine> bad(blocks.size());
+  std::atomic<std::size_t> first_bad = blocks.size();
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 1), [&](const auto& range) {
+    for (std::size_t b = range.begin(); b != range.end(); ++b) {
+      if (b > first_bad.load(std::memory_order_relaxed)) return;
+      bad[b] = read_block(blocks[b], rows, writer, table);
+      if (bad[b].number == 0) continue;
+      std::size_t seen = first_bad.load();
+      while (b < seen && !first_bad.compare_exchange_weak(seen, b)) {
+      }
+    }
+  });
+  return first_bad == blocks.size() ? BadLine{} : bad[first_bad];
+}
+
+}  // namespace
+
+AngleExtent angle_extent(const TextRows& rows) {
+  AngleExtent extent;
+  LineReader lines(rows.text);
+  for (std::string_view line; lines.next(line);) {
+    if (line.starts_with('#')) continue;
+    const std::vector<std::string_view> fields = split_fields(line, rows.separator);
+    for (std::size_t a = 0; a < rows.columns.angles.size(); ++a) {
+      if (rows.columns.angles[a] >= fields.size()) continue;
+      const std::string_view field = fields[rows.columns.angles[a]];
+      const char* at = field.data();
+      double angle = 0;
+      if (read_number(at, at + field.size(), angle) != NumberText::number) continue;
+      double& largest = a == theta_i || a == theta_o ? extent.theta : extent.phi;
+      largest = std::max(largest, std::abs(angle));
+    }
+  }
+  return extent;
+}
+
+void read_rows(const TextRows& rows, Quantity quantity, AngleUnit unit, const ReadOptions& options,
+               SampleTable& table) {
+  table.channels = rows.columns.channels;
+  BadLine bad;
+  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+  arena.execute([&] {
+    std::vector<Block> blocks = cut_into_blocks(rows.text);
+    tbb::parallel_for(std::size_t{0}, blocks.size(),
+                      [&](std::size_t b) { count_lines(blocks[b]); });
+    const std::size_t count = number_blocks(blocks, rows.first_line);
+    resize(table, rows.columns, count, options.keep_angle_text);
+    const SampleWriter writer(rows.columns, quantity, unit, table);
+    bad = read_blocks(blocks, rows, writer, table);
+  });
+  if (bad.number != 0) {
+    throw FileError(explain(bad.problem, rows, unit, bad.number, bad.text));
+  }
+  if (table.size() == 0) {
+    throw FileError(fmt::format(
+        "{}: no row of numbers behind the header: name a file that holds samples", rows.path));
+  }
+}
+
+}  // namespace gonio::table

@@ -1,0 +1,183 @@
+// The JSON schemas accept what gonio reads and writes, judged by an independent validator, and
+// reject what it refuses.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <valijson/adapters/nlohmann_json_adapter.hpp>
+#include <valijson/schema.hpp>
+#include <valijson/schema_parser.hpp>
+#include <valijson/validator.hpp>
+
+#include "instrument/recipe.h"
+#include "material/material_json.h"
+#include "table/file_error.h"
+#include "table/json_file.h"
+
+namespace gonio::tests {
+namespace {
+
+using nlohmann::json;
+
+const std::filesystem::path source_folder = GONIO_SOURCE_DIR;
+
+json read_json(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return json::parse(file);
+}
+
+/// A schema of the folder schema/, as a draft 7 validator understands it.
+class Schema {
+ public:
+  explicit Schema(const std::string& file) : document_(read_json(source_folder / "schema" / file)) {
+    valijson::SchemaParser parser(valijson::SchemaParser::kDraft7);
+    parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(document_), schema_);
+  }
+
+  /// Empty if the schema accepts the instance, else the first reason.
+  std::string complaint(const json& instance) const {
+    valijson::Validator validator(valijson::Validator::kStrongTypes);
+    valijson::ValidationResults results;
+    if (validator.validate(schema_, valijson::adapters::NlohmannJsonAdapter(instance), &results)) {
+      return "";
+    }
+    valijson::ValidationResults::Error error;
+    results.popError(error);
+    std::string text;
+    for (const std::string& step : error.context) text += step;
+    return text + ": " + error.description;
+  }
+
+ private:
+  json document_;
+  valijson::Schema schema_;
+};
+
+json example_material() {
+  return json::parse(R"({"format": "gonio-material", "version": 1, "name": "rolled brass",
+      "model": "lambert+ward-aniso", "channels": ["R", "G"], "parameters": {
+      "rho_d": {"value": [0.1, 0.2], "stddev": [0.01, null], "interval95": [[0, 1], null]},
+      "rho_s": {"value": [0.3, 0.4]}, "alpha_x": {"value": 0.05, "stddev": 0.01,
+      "interval95": [0.04, 0.06]}, "alpha_y": {"value": 0.16, "stddev": null,
+      "interval95": null}}, "fit": {"metric": "cosine-l2", "loss": "none",
+      "covariance": "residual", "samples": 9, "used": 8, "converged": true, "iterations": 7,
+      "errors": {"l2": 0.5}, "reduced_chi2": 1.25, "correlation_parameters": ["alpha_x"],
+      "correlation": [[1.0]], "warnings": ["w"]}, "provenance": {"table": "t.csv", "sha256": "",
+      "gonio": "0.1.0", "command": "gonio fit t.csv"}})");
+}
+
+json example_recipe() {
+  return read_json(source_folder / "data" / "synthetic" / "rolled_brass.json");
+}
+
+/// What a change makes of a document that was good.
+struct Break {
+  const char* what;
+  std::function<void(json&)> change;
+};
+
+TEST(MaterialSchema, AcceptsWhatGonioWrites) {
+  const Schema schema("material.schema.json");
+  EXPECT_EQ(schema.complaint(example_material()), "");
+  const auto material = material::parse_material(example_material().dump(), "example");
+  const json written = json::parse(table::json_text(material::to_json(material)));
+  EXPECT_EQ(schema.complaint(written), "");
+}
+
+TEST(MaterialSchema, AcceptsAMaterialWrittenByHand) {
+  const Schema schema("material.schema.json");
+  json m = json::parse(R"({"format": "gonio-material", "version": 1, "model": "ward",
+      "channels": ["Y"], "parameters": {"rho_d": {"value": 0.5}, "rho_s": {"value": [0.1]},
+      "alpha": {"value": 1}}})");
+  EXPECT_EQ(schema.complaint(m), "");
+  m["timing"] = {{"fit_s", 0.1}};
+  EXPECT_EQ(schema.complaint(m), "") << "the output of gonio fit --json is a material too";
+}
+
+TEST(MaterialSchema, RejectsWhatTheReaderRefuses) {
+  const Schema schema("material.schema.json");
+  const Break breaks[] = {
+      {"format", [](json& m) { m["format"] = "gonio-recipe"; }},
+      {"newer", [](json& m) { m["version"] = 2; }},
+      {"no version", [](json& m) { m.erase("version"); }},
+      {"no model", [](json& m) { m.erase("model"); }},
+      {"no channels", [](json& m) { m.erase("channels"); }},
+      {"empty channels", [](json& m) { m["channels"] = json::array(); }},
+      {"double channel",
+       [](json& m) {
+         m["channels"] = {"R", "R"};
+       }},
+      {"comma in a channel",
+       [](json& m) {
+         m["channels"] = {"R", "a,b"};
+       }},
+      {"no parameters", [](json& m) { m.erase("parameters"); }},
+      {"no value", [](json& m) { m["parameters"]["alpha_x"].erase("value"); }},
+      {"text value", [](json& m) { m["parameters"]["alpha_x"]["value"] = ".05"; }},
+      {"null value", [](json& m) { m["parameters"]["rho_d"]["value"][0] = nullptr; }},
+      {"bare value", [](json& m) { m["parameters"]["alpha_x"] = 0.05; }},
+      {"unknown member", [](json& m) { m["parameters"]["alpha_x"]["std"] = 1; }},
+      {"negative stddev", [](json& m) { m["parameters"]["alpha_x"]["stddev"] = -1; }},
+      {"half interval", [](json& m) { m["parameters"]["alpha_x"]["interval95"] = {1}; }},
+      {"count", [](json& m) { m["fit"]["samples"] = -1; }},
+      {"converged", [](json& m) { m["fit"]["converged"] = "yes"; }},
+      {"warnings", [](json& m) { m["fit"]["warnings"] = "w"; }},
+      {"provenance", [](json& m) { m["provenance"] = json::array(); }},
+  };
+  for (const Break& b : breaks) {
+    SCOPED_TRACE(b.what);
+    json broken = example_material();
+    b.change(broken);
+    EXPECT_NE(schema.complaint(broken), "");
+    EXPECT_THROW(material::parse_material(broken.dump(), "broken"), table::FileError);
+  }
+}
+
+TEST(RecipeSchema, AcceptsEveryRecipeOfTheProject) {
+  const Schema schema("recipe.schema.json");
+  int count = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(source_folder / "data" / "synthetic")) {
+    if (entry.path().extension() != ".json") continue;
+    EXPECT_EQ(schema.complaint(read_json(entry.path())), "") << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 10);
+}
+
+TEST(RecipeSchema, RejectsWhatTheReaderRefuses) {
+  const Schema schema("recipe.schema.json");
+  const Break breaks[] = {
+      {"format", [](json& r) { r["format"] = "gonio-material"; }},
+      {"newer", [](json& r) { r["version"] = 2; }},
+      {"unknown member", [](json& r) { r["sigmas"] = true; }},
+      {"no name", [](json& r) { r.erase("name"); }},
+      {"text parameter", [](json& r) { r["parameters"]["rho_d"] = "0.1"; }},
+      {"no angle", [](json& r) { r["incidence_angles_deg"] = json::array(); }},
+      {"grazing lamp", [](json& r) { r["incidence_angles_deg"] = {90}; }},
+      {"lamp below", [](json& r) { r["incidence_angles_deg"] = {-5}; }},
+      {"rotation", [](json& r) { r["sample_rotations_deg"] = {"0"}; }},
+      {"no hemisphere", [](json& r) { r["exitant_directions"].erase("hemisphere"); }},
+      {"theta max", [](json& r) { r["exitant_directions"]["theta_max_deg"] = 100; }},
+      {"no step", [](json& r) { r["exitant_directions"]["hemisphere"]["phi_step_deg"] = 0; }},
+      {"part of a direction",
+       [](json& r) { r["exitant_directions"]["mirror_patch"]["directions_per_ring"] = 1.5; }},
+      {"negative noise", [](json& r) { r["noise"]["relative"] = -0.1; }},
+      {"no seed", [](json& r) { r["noise"].erase("seed"); }},
+      {"negative seed", [](json& r) { r["noise"]["seed"] = -1; }},
+      {"sigma", [](json& r) { r["sigma_columns"] = 1; }},
+      {"quantity", [](json& r) { r["quantity"] = "radiance"; }},
+  };
+  for (const Break& b : breaks) {
+    SCOPED_TRACE(b.what);
+    json broken = example_recipe();
+    b.change(broken);
+    EXPECT_NE(schema.complaint(broken), "");
+    EXPECT_THROW(instrument::parse_recipe(broken.dump(), "broken"), table::FileError);
+  }
+}
+
+}  // namespace
+}  // namespace gonio::tests
