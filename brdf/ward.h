@@ -120,8 +120,8 @@ struct WardGmdLobe {
     const S v = S(qy) / alpha_y;
     // (h.h)/hz^4 = (1 + q)/hz^2: hz^4 would underflow and give 0 * inf.
     return ward_detail::gaussian_over<D>(
-        S(u * u + v * v), S(alpha_x * alpha_y *
-                            (std::numbers::pi_v<D> * h.z * h.z / (D(1) + qx * qx + qy * qy))));
+        S(u * u + v * v),
+        S(alpha_x * alpha_y * (std::numbers::pi_v<D> * h.z * h.z / (D(1) + qx * qx + qy * qy))));
   }
 };
 
@@ -134,8 +134,9 @@ inline constexpr Parameter specular_albedo{
     .search_lower = 0,
     .search_upper = 1,
     .scale = Scale::linear,
-    .meaning = "specular albedo: the share of the incident light that the lobe reflects, "
-               "exact at small roughness and normal incidence",
+    .meaning =
+        "specular albedo: the share of the incident light that the lobe reflects, "
+        "exact at small roughness and normal incidence",
     .source = "Ward 1992, eq. 4"};
 
 /// A roughness alpha of the Ward lobes, under the given name.
@@ -160,8 +161,9 @@ struct IsotropicWard {
                                                .source = Lobe::source};
   static constexpr std::array<Parameter, 1> amplitudes{specular_albedo};
   static constexpr std::array<Parameter, 1> shape{
-      ward_roughness("alpha", "roughness: the standard deviation of the surface slope times "
-                              "sqrt(2), the same in all directions")};
+      ward_roughness("alpha",
+                     "roughness: the standard deviation of the surface slope times "
+                     "sqrt(2), the same in all directions")};
 
   template <class S, class D>
   static std::array<S, 1> basis(const std::array<S, 1>& alpha, const Direction<D>& wi,

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "fit/parallel.h"
+#include "table/parallel.h"
 #include "fit/weighted_samples.h"
 
 namespace gonio::fit {
@@ -35,7 +35,7 @@ auto chunk_pass(const WeightedSamples& samples, const PassOptions& options,
   std::mutex share_mutex;
   std::size_t done = 0;
   std::vector<std::optional<State>> results(tasks);
-  parallel_for(tasks, options.threads, [&](std::size_t task) {
+  table::parallel_for(tasks, options.threads, [&](std::size_t task) {
     State state = make_state();
     SampleChunk chunk(samples.channel_count());
     const std::size_t last = std::min((task + 1) * chunks_per_task, chunks);

@@ -59,10 +59,11 @@ void require_enough_values(const WeightedSamples& samples, const Box& box,
 }
 
 Solution best_solution(const WeightedSamples& samples, const BatchModel& model, const Box& box,
-                       const std::vector<std::vector<double>>& starts, const PassOptions& passes) {
+                       std::span<const Start> starts, const PassOptions& passes) {
   std::optional<Solution> best;
-  for (const std::vector<double>& start : starts) {
-    Solution solution = solve(samples, model, box, start, passes);
+  for (const Start& start : starts) {
+    Solution solution = solve(samples, model, box, start.shape, passes);
+    solution.iterations += start.iterations;
     if (!best || solution.cost < best->cost) best = std::move(solution);
   }
   return std::move(*best);
@@ -96,7 +97,7 @@ FitResult fit(const brdf::Model& model, const table::SampleTable& table, const O
   require_enough_values(*samples, box, unknowns);
   const table::SampleTable subset = representative_subset(
       table, samples->filter(), samples->used_samples(), subset_samples);
-  const auto starts = search_starts(subset, batch, box, options);
+  const std::vector<Start> starts = search_starts(subset, batch, box, options);
   Solution solution = best_solution(*samples, batch, box, starts, passes.options());
 
   // sigma depends on the model, and the model on sigma: a few rounds settle both.

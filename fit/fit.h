@@ -36,7 +36,7 @@ struct FitResult {
   std::size_t samples;  // in the table
   std::size_t used;
   bool converged;
-  int iterations;  // of the solver, over the whole table
+  int iterations;  // of the solver, on the subset of the search and over the whole table
   int passes;      // over the whole table, all in all
   /// What a user should know before believing the numbers, one sentence each.
   std::vector<std::string> warnings;

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "fit/compression.h"
-#include "fit/parallel.h"
+#include "table/parallel.h"
 #include "fit/projection.h"
 #include "fit/solve.h"
 #include "fit/weighted_samples.h"
@@ -171,15 +171,14 @@ table::SampleTable representative_subset(const table::SampleTable& table,
   return subset;
 }
 
-std::vector<std::vector<double>> search_starts(const table::SampleTable& subset,
-                                               const BatchModel& model, const Box& box,
-                                               const Options& options) {
+std::vector<Start> search_starts(const table::SampleTable& subset, const BatchModel& model,
+                                 const Box& box, const Options& options) {
   const Grid grid{scan_axes(model.model(), box, options)};
-  if (grid.size() == 1) return {grid.shape(0)};
+  if (grid.size() == 1) return {{grid.shape(0), 0}};
 
   const WeightedSamples samples(subset, model, options);
   std::vector<double> costs(grid.size());
-  parallel_for(grid.size(), options.threads, [&](std::size_t g) {
+  table::parallel_for(grid.size(), options.threads, [&](std::size_t g) {
     const Compressed compressed = compress(samples, model, grid.shape(g), false, {});
     costs[g] = project(compressed, model, box, false).cost();
   });
@@ -192,18 +191,18 @@ std::vector<std::vector<double>> search_starts(const table::SampleTable& subset,
   minima.resize(std::min(minima.size(), most_minima));
 
   std::vector<Solution> solutions(minima.size());
-  parallel_for(minima.size(), options.threads, [&](std::size_t m) {
+  table::parallel_for(minima.size(), options.threads, [&](std::size_t m) {
     solutions[m] = solve(samples, model, box, grid.shape(minima[m]), {});
   });
   std::sort(solutions.begin(), solutions.end(),
             [](const Solution& a, const Solution& b) { return a.cost < b.cost; });
-  std::vector<std::vector<double>> starts;
+  std::vector<Start> starts;
   for (const Solution& solution : solutions) {
     if (solution.cost > hopeless_cost_ratio * solutions.front().cost) break;
     const auto& shape = solution.values.shape;
     if (std::none_of(starts.begin(), starts.end(),
-                     [&](const auto& other) { return same_minimum(shape, other); })) {
-      starts.push_back(shape);
+                     [&](const Start& other) { return same_minimum(shape, other.shape); })) {
+      starts.push_back({shape, solution.iterations});
     }
   }
   return starts;

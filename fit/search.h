@@ -18,11 +18,16 @@ table::SampleTable representative_subset(const table::SampleTable& table,
                                          const table::SampleFilter& filter,
                                          std::size_t used_samples, std::size_t count);
 
-/// Shapes to start from, best first: the local minima, solved on `subset`, of a scan over the
+/// Where a solution over the whole table starts.
+struct Start {
+  std::vector<double> shape;
+  int iterations;  // of the solver on the subset, to get there
+};
+
+/// Starts, best first: the local minima, solved on `subset`, of a scan over the
 /// shape's search range (with the amplitudes projected out), as far as their cost comes near the
 /// best one's. Parameters with a start value or a fixed one keep it in the scan.
-std::vector<std::vector<double>> search_starts(const table::SampleTable& subset,
-                                               const BatchModel& model, const Box& box,
-                                               const Options& options);
+std::vector<Start> search_starts(const table::SampleTable& subset,
+                                 const BatchModel& model, const Box& box, const Options& options);
 
 }  // namespace gonio::fit

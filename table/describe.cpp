@@ -115,7 +115,7 @@ IncidenceSummary summarise_incidence(const SampleTable& table, double theta_deg,
   summary.coverage = coverage.share();
   if (summary.coverage < least_coverage_for_albedo) return summary;
 
-  const DiscAverage average(points, coverage);
+  const DiscAverage average(points);
   for (const std::vector<double>& channel : table.values) {
     summary.albedo.push_back(std::numbers::pi * average.mean(channel, samples));
   }

@@ -34,12 +34,13 @@ struct ChannelSummary {
 struct IncidenceSummary {
   double theta_deg = 0;  // the incidence angle, or the centre of the bin
   std::size_t samples = 0;
-  std::size_t azimuths = 0;      // azimuths of incidence, counted in whole degrees
-  std::size_t cells = 0;         // equal-area cells of the projected disc that coverage counts
-  double coverage = 0;           // the share of them that holds a sample
-  std::vector<double> albedo{};  // directional albedo per channel: pi times the mean of f_r over
-                                 // the covered part of the projected disc, an estimate; empty if
-                                 // too little is covered
+  std::size_t azimuths = 0;  // azimuths of incidence, counted in whole degrees
+  std::size_t cells = 0;     // equal-area cells of the projected disc that coverage counts
+  double coverage = 0;       // the share of them that holds a sample
+  // The directional albedo per channel: pi times the mean of f_r over the projected disc, where a
+  // direction that was not measured counts like the nearest one that was. An estimate; empty if
+  // coverage is below 1/4.
+  std::vector<double> albedo{};
 };
 
 /// Which slopes of the half vector the table holds, hx/hz along the tangent and hy/hz along the

@@ -25,7 +25,7 @@ namespace {
 
 [[noreturn]] void fail_by_errno(const std::string& path, int error) {
   if (error == ENOENT || error == ENOTDIR) fail(path, "no such file", "check the path");
-  if (error == EISDIR) fail(path, "this is a folder, not a table", "name a file in it");
+  if (error == EISDIR) fail(path, "this is a folder", "name a file in it");
   fail(path, "cannot be read (" + std::generic_category().message(error) + ")",
        "check that it is a file and that you may read it");
 }
@@ -50,7 +50,7 @@ struct stat usable_status(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) fail_by_errno(path, errno);
   if (S_ISDIR(status.st_mode)) fail_by_errno(path, EISDIR);
-  if (S_ISBLK(status.st_mode)) fail(path, "this is a device, not a table", "name a file");
+  if (S_ISBLK(status.st_mode)) fail(path, "this is a device", "name a file");
   return status;
 }
 
@@ -77,7 +77,7 @@ InputFile::InputFile(const std::string& path) {
   const Descriptor file(path);
   is_regular_ = S_ISREG(status.st_mode);
   if (S_ISCHR(status.st_mode) && isatty(file.value()) == 0) {
-    fail(path, "this is a device, not a table", "name a file");
+    fail(path, "this is a device", "name a file");
   }
   if (is_regular_ && status.st_size > 0) {
     const auto size = static_cast<std::size_t>(status.st_size);
@@ -90,7 +90,7 @@ InputFile::InputFile(const std::string& path) {
   }
   read_ = read_to_the_end(file, path);
   bytes_ = {read_.data(), read_.size()};
-  if (bytes_.empty()) fail(path, "the file is empty", "name a file that holds a table");
+  if (bytes_.empty()) fail(path, "the file is empty", "name one with content");
 }
 
 InputFile::~InputFile() {

@@ -102,21 +102,22 @@ std::size_t nearest(const std::vector<FilledCell>& filled, const DiscPoint& p) {
 
 DiscCoverage::DiscCoverage(std::span<const DiscPoint> points) {
   const std::size_t polar_angles = distinct_polar_angles(points);
-  while (rings_ > 4 && 2 * rings_ > polar_angles) rings_ /= 2;
+  std::size_t rings = 16;
+  std::size_t sectors = 24;
+  while (rings > 4 && 2 * rings > polar_angles) rings /= 2;
   // Four samples per cell: fewer would leave cells empty by chance.
-  while (rings_ > 4 && 4 * rings_ * sectors_ > points.size()) rings_ /= 2;
-  if (4 * rings_ * sectors_ > points.size()) sectors_ = 12;
-  covered_.resize(rings_ * sectors_);
-  for (const DiscPoint& p : points) covered_[cell_of(p)] = true;
-}
+  while (rings > 4 && 4 * rings * sectors > points.size()) rings /= 2;
+  if (4 * rings * sectors > points.size()) sectors = 12;
 
-std::size_t DiscCoverage::cell_of(const DiscPoint& p) const {
-  const double area = std::min(p.x * p.x + p.y * p.y, 1.0);
-  const std::size_t ring =
-      std::min(static_cast<std::size_t>(area * static_cast<double>(rings_)), rings_ - 1);
-  const double turn = std::atan2(p.y, p.x) / (2 * pi);
-  const auto sector = std::lround((turn + 1) * static_cast<double>(sectors_));
-  return ring * sectors_ + static_cast<std::size_t>(sector) % sectors_;
+  covered_.resize(rings * sectors);
+  for (const DiscPoint& p : points) {
+    const double area = std::min(p.x * p.x + p.y * p.y, 1.0);
+    const std::size_t ring =
+        std::min(static_cast<std::size_t>(area * static_cast<double>(rings)), rings - 1);
+    const double turn = std::atan2(p.y, p.x) / (2 * pi);
+    const auto sector = std::lround((turn + 1) * static_cast<double>(sectors));
+    covered_[ring * sectors + static_cast<std::size_t>(sector) % sectors] = true;
+  }
 }
 
 double DiscCoverage::share() const {
@@ -124,18 +125,16 @@ double DiscCoverage::share() const {
   return static_cast<double>(count) / static_cast<double>(covered_.size());
 }
 
-DiscAverage::DiscAverage(std::span<const DiscPoint> points, const DiscCoverage& coverage)
-    : weight_(edge * edge) {
+DiscAverage::DiscAverage(std::span<const DiscPoint> points) : weight_(edge * edge) {
   cell_.reserve(points.size());
   for (const DiscPoint& p : points) cell_.push_back(static_cast<std::uint16_t>(cell_of(p)));
 
   const std::vector<FilledCell> filled = filled_cells(points, cell_);
   for (const FilledCell& own : filled) weight_[own.cell] = 1;
+  if (filled.empty()) return;
   const std::vector<std::uint32_t> is_filled = weight_;
   for (std::size_t cell = 0; cell < weight_.size(); ++cell) {
-    if (is_filled[cell] != 0) continue;
-    const DiscPoint centre = centre_of(cell);
-    if (coverage.covers(centre)) ++weight_[nearest(filled, centre)];
+    if (is_filled[cell] == 0) ++weight_[nearest(filled, centre_of(cell))];
   }
 }
 

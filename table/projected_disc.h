@@ -26,22 +26,17 @@ class DiscCoverage {
   std::size_t cells() const { return covered_.size(); }
   /// The share of the cells that hold a point, 0 to 1.
   double share() const;
-  bool covers(const DiscPoint& point) const { return covered_[cell_of(point)]; }
 
  private:
-  std::size_t cell_of(const DiscPoint& point) const;
-
-  std::size_t rings_ = 16;
-  std::size_t sectors_ = 24;
   std::vector<bool> covered_;
 };
 
-/// The mean of scattered values over the covered part of the disc. Values are averaged in
-/// 64 x 64 cells of equal area; an empty cell within the covered part takes the value of the
-/// nearest one, so that neither a dense cluster nor a coarse step of the azimuth shifts the mean.
+/// The mean of scattered values over the whole disc. Values are averaged in 64 x 64 cells of equal
+/// area, and a cell without any takes the value of the nearest one that has: dense clusters of
+/// samples, coarse steps and gaps weigh by the area that they stand for.
 class DiscAverage {
  public:
-  DiscAverage(std::span<const DiscPoint> points, const DiscCoverage& coverage);
+  explicit DiscAverage(std::span<const DiscPoint> points);
 
   /// The mean of values[index[k]] at point k; NaN are holes. NaN if all are.
   double mean(std::span<const double> values, std::span<const std::uint32_t> index) const;

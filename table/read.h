@@ -18,7 +18,8 @@ struct ReadOptions {
 /// The sha256 of the bytes is left empty here: see sha256_of_file().
 SampleTable read(const std::string& path, const ReadOptions& options = {});
 
-/// The SHA-256 of the file's bytes in lower-case hexadecimal. Throws FileError.
+/// The SHA-256 of the file's bytes in lower-case hexadecimal; empty for a pipe, whose bytes are
+/// gone once they were read. Throws FileError.
 std::string sha256_of_file(const std::string& path);
 
 }  // namespace gonio::table

@@ -115,6 +115,30 @@ TEST(Describe, DenseSamplesInTheLobeDoNotOutweighTheRestOfTheHemisphere) {
   EXPECT_NEAR(describe(table).incidences.at(0).albedo.at(0), integral, 0.03 * integral);
 }
 
+TEST(Describe, GapsInTheCoverageCountLikeTheirSurroundings) {
+  // Ward's instrument, sparing: every 20 by 60 deg, and densely about the mirror direction.
+  const Value f = ward(0.2, 0.3, 0.1);
+  const auto wi = direction_from_degrees(30, 0);
+  SampleTable table = empty_table();
+  for (double theta = 0; theta <= 80; theta += 20) {
+    for (double phi = 0; phi < 360; phi += 60) {
+      const auto wo = direction_from_degrees(theta, phi);
+      add(table, wi, wo, f(wi, wo));
+    }
+  }
+  for (double theta = 4; theta <= 56; theta += 2) {
+    for (double phi = 150; phi <= 210; phi += 4) {
+      const auto wo = direction_from_degrees(theta, phi);
+      add(table, wi, wo, f(wi, wo));
+    }
+  }
+  const IncidenceSummary incidence = describe(table).incidences.at(0);
+  EXPECT_LT(incidence.coverage, 0.6);
+  const double integral = integrated_albedo(f, wi);
+  // Half of the hemisphere rests on a few samples of the diffuse term: a tenth is good.
+  EXPECT_NEAR(incidence.albedo.at(0), integral, 0.1 * integral);
+}
+
 TEST(Describe, CoverageIsTheShareOfTheProjectedSolidAngle) {
   // theta up to 60 deg covers sin^2(60) = 3/4 of the disc: 12 of 16 rings of equal area.
   const SampleTable cap = goniometer_table({0}, constant(1), 0, 1, 59.9);

@@ -17,7 +17,6 @@
 namespace gonio::material {
 namespace {
 
-using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::StartsWith;

@@ -162,8 +162,8 @@ void add_incidences(std::string& text, const Description& d) {
                    albedo_text(incidence, d.channels.size()));
   }
   text +=
-      "covered: share of the exitant hemisphere's projected solid angle. albedo: an estimate over\n"
-      "what is covered, pi times the mean of f_r in cells of equal projected solid angle.\n";
+      "covered: share of the exitant hemisphere's projected solid angle that holds samples.\n"
+      "albedo: an estimate; a direction that was not measured counts like the nearest that was.\n";
 }
 
 nlohmann::ordered_json range_json(const table::Range& range) {

@@ -9,6 +9,7 @@
 
 #include "apps/gonio/command.h"
 #include "table/file_error.h"
+#include "table/json_file.h"
 
 namespace gonio::app {
 
@@ -24,7 +25,7 @@ void print(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail_to_print();
 }
 
-void print_json(const nlohmann::ordered_json& json) { print(json.dump(2) + "\n"); }
+void print_json(const nlohmann::ordered_json& json) { print(table::json_text(json)); }
 
 void print_note(std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stderr);

@@ -34,9 +34,8 @@ void synth(const SynthOptions& options) {
   table::OutputFile file(options.output);
   table::write_gonio_csv(table, {}, [&](std::string_view piece) { file.write(piece); });
   file.commit();
-  print_note(fmt::format("{}: {} of {} for {}, seen from {} with the sample turned to {}",
-                         options.output, plural(table.size(), "sample"), recipe.name,
-                         plural(table.channels.size(), "channel"),
+  print_note(fmt::format("{}: {}, {}, {}, {}, {}", options.output, recipe.name,
+                         plural(table.size(), "sample"), plural(table.channels.size(), "channel"),
                          plural(recipe.incidence_angles_deg.size(), "incidence angle"),
                          plural(recipe.sample_rotations_deg.size(), "rotation")));
 }

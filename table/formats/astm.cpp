@@ -224,7 +224,7 @@ SampleTable read_astm(std::string_view content, const std::string& path,
   SampleTable table;
   table.name = header.sample_name;
   if (!header.measurement) {
-    table.notes.push_back("no MEAS_NAME line: the values were taken as BRDF in 1/sr");
+    table.notes.emplace_back("no MEAS_NAME line: the values were taken as BRDF in 1/sr");
   }
   const std::string_view row = first_row(lines);
   const bool has_commas = row.find(',') != std::string_view::npos;

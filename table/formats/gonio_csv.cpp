@@ -146,7 +146,8 @@ SampleTable read_gonio_csv(std::string_view content, const std::string& path,
                            const ReadOptions& options) {
   LineReader lines(without_byte_order_mark(content));
   const auto place = [&] { return fmt::format("{}:{}", path, lines.number()); };
-  check_version(version_text(first_line(lines)).value_or(""), place());
+  const std::string_view signature_line = first_line(lines);
+  check_version(version_text(signature_line).value_or(""), place());
 
   Declaration declaration;
   std::string_view line;

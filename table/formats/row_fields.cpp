@@ -108,7 +108,7 @@ std::vector<std::string_view> split_fields(std::string_view line, Separator sepa
   line = trimmed(line);
   while (true) {
     const std::size_t end =
-        separator == Separator::comma ? line.find(',') : line.find_first_of(" \t");
+        separator == Separator::comma ? line.find(',') : line.find_first_of(" \t\r");
     fields.push_back(trimmed(line.substr(0, end)));
     if (end == std::string_view::npos) return fields;
     line.remove_prefix(end + 1);

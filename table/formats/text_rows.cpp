@@ -2,31 +2,26 @@
 
 #include <fmt/core.h>
 #include <sys/mman.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <limits>
-#include <numbers>
 #include <vector>
 
 #include "table/file_error.h"
 #include "table/formats/number_text.h"
 #include "table/formats/row_fields.h"
+#include "table/formats/sample_writer.h"
 #include "table/formats/text_lines.h"
+#include "table/parallel.h"
 
 namespace gonio::table {
 
 namespace {
 
-constexpr double horizon_tolerance_deg = 1e-6;
 constexpr std::size_t block_size = std::size_t{1} << 20;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Whole lines of the text.
 struct Block {
@@ -86,17 +81,21 @@ std::size_t number_blocks(std::vector<Block>& blocks, std::size_t first_line) {
 void resize_fresh(std::vector<double>& array, std::size_t size) {
   array.reserve(size);
 #ifdef MADV_HUGEPAGE
-  constexpr std::uintptr_t huge_page = std::uintptr_t{1} << 21;
-  const auto begin = reinterpret_cast<std::uintptr_t>(array.data());
-  const std::uintptr_t first = (begin + huge_page - 1) / huge_page * huge_page;
-  const std::uintptr_t last = (begin + size * sizeof(double)) / huge_page * huge_page;
-  if (first < last) madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);
+  constexpr std::size_t huge_page = std::size_t{1} << 21;
+  auto* const begin = reinterpret_cast<char*>(array.data());
+  const std::size_t before =
+      (huge_page - reinterpret_cast<std::uintptr_t>(begin) % huge_page) % huge_page;
+  const std::size_t bytes = size * sizeof(double);
+  if (before < bytes) {
+    madvise(begin + before, (bytes - before) / huge_page * huge_page, MADV_HUGEPAGE);
+  }
 #endif
   array.resize(size);
 }
 
 /// Gives every array of the table its size; in parallel, since fresh memory is slow to touch.
-void resize(SampleTable& table, const Columns& columns, std::size_t rows, bool angle_text) {
+void resize(SampleTable& table, const Columns& columns, std::size_t rows, bool angle_text,
+            int threads) {
   table.values.resize(columns.values.size());
   table.sigma.resize(columns.sigmas.size());
   std::vector<std::vector<double>*> arrays{&table.wi.x, &table.wi.y, &table.wi.z,
@@ -104,108 +103,10 @@ void resize(SampleTable& table, const Columns& columns, std::size_t rows, bool a
   for (std::vector<double>& values : table.values) arrays.push_back(&values);
   for (std::vector<double>& sigmas : table.sigma) arrays.push_back(&sigmas);
   if (columns.weight) arrays.push_back(&table.weight);
-  tbb::parallel_for(std::size_t{0}, arrays.size(),
-                    [&](std::size_t i) { resize_fresh(*arrays[i], rows); });
+  parallel_for(arrays.size(), threads, [&](std::size_t i) { resize_fresh(*arrays[i], rows); });
   table.mask.resize(rows, MaskReason::none);
   if (angle_text) table.angle_text.resize(rows);
 }
-
-/// Turns the fields of a row into a sample.
-class SampleWriter {
- public:
-  SampleWriter(const Columns& columns, Quantity quantity, AngleUnit unit, SampleTable& table)
-      : columns_(columns),
-        quantity_(quantity),
-        unit_(unit),
-        quarter_turn_(unit == AngleUnit::degrees ? 90 : std::numbers::pi / 2),
-        tolerance_(unit == AngleUnit::degrees ? horizon_tolerance_deg
-                                              : horizon_tolerance_deg * std::numbers::pi / 180),
-        table_(table) {}
-
-  RowProblem write(std::span<const double> fields, std::size_t i) {
-    if (const RowProblem problem = write_directions(fields, i); problem.fault != RowFault::none) {
-      return problem;
-    }
-    return write_values(fields, i);
-  }
-
- private:
-  RowProblem write_directions(std::span<const double> fields, std::size_t i) {
-    std::array<double, 4> angle;
-    for (std::size_t a = 0; a < angle.size(); ++a) {
-      angle[a] = fields[columns_.angles[a]];
-      if (std::isnan(angle[a])) return {RowFault::empty_angle, columns_.angles[a]};
-    }
-    for (const Angle a : {theta_i, theta_o}) {
-      if (angle[a] < 0 || angle[a] > quarter_turn_ + tolerance_) {
-        return {RowFault::theta_range, columns_.angles[a]};
-      }
-      if (angle[a] >= quarter_turn_ - tolerance_) table_.mask[i] = MaskReason::horizon;
-    }
-    table_.wi.set(i, direction(angle[theta_i], angle[phi_i]));
-    table_.wo.set(i, direction(angle[theta_o], angle[phi_o]));
-    incidence_is_horizontal_ = angle[theta_i] >= quarter_turn_ - tolerance_;
-    return {};
-  }
-
-  brdf::Direction<double> direction(double theta, double phi) const {
-    return unit_ == AngleUnit::degrees ? brdf::direction_from_degrees(theta, phi)
-                                       : brdf::direction_from_radians(theta, phi);
-  }
-
-  /// What the file's numbers are divided by to give f_r; NaN where they cannot tell it.
-  double divisor(std::size_t i) const {
-    switch (quantity_) {
-      case Quantity::brdf:
-        return 1;
-      case Quantity::brdf_cos:
-        return incidence_is_horizontal_ ? nan : table_.wi.z[i];
-      case Quantity::reflectance_factor:
-        return std::numbers::pi;
-    }
-    return 1;
-  }
-
-  RowProblem write_values(std::span<const double> fields, std::size_t i) {
-    const double scale = divisor(i);
-    bool is_measured = false;
-    for (std::size_t c = 0; c < columns_.values.size(); ++c) {
-      const double written = fields[columns_.values[c]];
-      const double value = written / scale;
-      if (std::isinf(value)) return {RowFault::too_large, columns_.values[c]};
-      table_.values[c][i] = value;
-      if (std::isnan(written)) continue;
-      is_measured = true;
-      if (!columns_.sigmas.empty() && std::isnan(fields[columns_.sigmas[c]])) {
-        return {RowFault::empty_sigma, columns_.sigmas[c]};
-      }
-    }
-    if (!is_measured && table_.mask[i] == MaskReason::none) table_.mask[i] = MaskReason::hole;
-    for (std::size_t c = 0; c < columns_.sigmas.size(); ++c) {
-      const double sigma = fields[columns_.sigmas[c]] / scale;
-      if (sigma <= 0) return {RowFault::sigma_not_positive, columns_.sigmas[c]};
-      if (std::isinf(sigma)) return {RowFault::too_large, columns_.sigmas[c]};
-      table_.sigma[c][i] = sigma;
-    }
-    if (columns_.weight) return write_weight(fields[*columns_.weight], is_measured, i);
-    return {};
-  }
-
-  RowProblem write_weight(double weight, bool is_measured, std::size_t i) {
-    if (std::isnan(weight) && is_measured) return {RowFault::empty_weight, *columns_.weight};
-    if (weight < 0) return {RowFault::weight_negative, *columns_.weight};
-    table_.weight[i] = std::isnan(weight) ? 0 : weight;
-    return {};
-  }
-
-  const Columns& columns_;
-  Quantity quantity_;
-  AngleUnit unit_;
-  double quarter_turn_;
-  double tolerance_;
-  bool incidence_is_horizontal_ = false;
-  SampleTable& table_;
-};
 
 std::string angle_text(std::string_view line, const TextRows& rows) {
   const std::vector<std::string_view> fields = split_fields(line, rows.separator);
@@ -220,7 +121,7 @@ struct BadLine {
   std::string_view text;
 };
 
-BadLine read_block(const Block& block, const TextRows& rows, SampleWriter writer,
+BadLine read_block(const Block& block, const TextRows& rows, const SampleWriter& writer,
                    SampleTable& table) {
   std::vector<double> fields(rows.columns.names.size());
   std::size_t line = block.first_line;
@@ -246,17 +147,15 @@ BadLine read_block(const Block& block, const TextRows& rows, SampleWriter writer
 
 /// Reads all blocks; returns the first bad line of the file.
 BadLine read_blocks(const std::vector<Block>& blocks, const TextRows& rows,
-                    const SampleWriter& writer, SampleTable& table) {
+                    const SampleWriter& writer, SampleTable& table, int threads) {
   std::vector<BadLine> bad(blocks.size());
   std::atomic<std::size_t> first_bad = blocks.size();
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, blocks.size(), 1), [&](const auto& range) {
-    for (std::size_t b = range.begin(); b != range.end(); ++b) {
-      if (b > first_bad.load(std::memory_order_relaxed)) return;
-      bad[b] = read_block(blocks[b], rows, writer, table);
-      if (bad[b].number == 0) continue;
-      std::size_t seen = first_bad.load();
-      while (b < seen && !first_bad.compare_exchange_weak(seen, b)) {
-      }
+  parallel_for(blocks.size(), threads, [&](std::size_t b) {
+    if (b > first_bad.load(std::memory_order_relaxed)) return;
+    bad[b] = read_block(blocks[b], rows, writer, table);
+    if (bad[b].number == 0) return;
+    std::size_t seen = first_bad.load();
+    while (b < seen && !first_bad.compare_exchange_weak(seen, b)) {
     }
   });
   return first_bad == blocks.size() ? BadLine{} : bad[first_bad];
@@ -286,17 +185,12 @@ AngleExtent angle_extent(const TextRows& rows) {
 void read_rows(const TextRows& rows, Quantity quantity, AngleUnit unit, const ReadOptions& options,
                SampleTable& table) {
   table.channels = rows.columns.channels;
-  BadLine bad;
-  tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
-  arena.execute([&] {
-    std::vector<Block> blocks = cut_into_blocks(rows.text);
-    tbb::parallel_for(std::size_t{0}, blocks.size(),
-                      [&](std::size_t b) { count_lines(blocks[b]); });
-    const std::size_t count = number_blocks(blocks, rows.first_line);
-    resize(table, rows.columns, count, options.keep_angle_text);
-    const SampleWriter writer(rows.columns, quantity, unit, table);
-    bad = read_blocks(blocks, rows, writer, table);
-  });
+  std::vector<Block> blocks = cut_into_blocks(rows.text);
+  parallel_for(blocks.size(), options.threads, [&](std::size_t b) { count_lines(blocks[b]); });
+  const std::size_t count = number_blocks(blocks, rows.first_line);
+  resize(table, rows.columns, count, options.keep_angle_text, options.threads);
+  const SampleWriter writer(rows.columns, quantity, unit, table);
+  const BadLine bad = read_blocks(blocks, rows, writer, table, options.threads);
   if (bad.number != 0) {
     throw FileError(explain(bad.problem, rows, unit, bad.number, bad.text));
   }

@@ -1,20 +1,15 @@
-// Running numbered tasks on a given number of threads.
-#pragma once
+#include "table/parallel.h"
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include <cstddef>
 #include <optional>
 
-namespace gonio::fit {
+namespace gonio::table {
 
-/// Calls task(i) for i in [0, count) on up to `threads` threads (0: as many as the machine has).
-/// For results that do not depend on the number of threads, each task writes to its own place.
-template <class Task>
-void parallel_for(std::size_t count, int threads, const Task& task) {
+void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& task) {
   if (threads == 1 || count < 2) {
     for (std::size_t i = 0; i < count; ++i) task(i);
     return;
@@ -25,7 +20,7 @@ void parallel_for(std::size_t count, int threads, const Task& task) {
     more_threads.emplace(tbb::global_control::max_allowed_parallelism, std::size_t(threads));
   }
   tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
-  arena.execute([&] { tbb::parallel_for(std::size_t(0), count, task); });
+  arena.execute([&] { tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) { task(i); }); });
 }
 
-}  // namespace gonio::fit
+}  // namespace gonio::table
