@@ -49,10 +49,10 @@ const TermEntry* find_term(std::string_view name) {
 }
 
 [[noreturn]] void refuse(std::string_view model, const std::string& reason) {
-  throw std::invalid_argument("model '" + std::string(model) + "': " + reason +
-                              "; a model is diffuse, specular or diffuse+specular, diffuse one of " +
-                              names_of(TermKind::diffuse) + ", specular one of " +
-                              names_of(TermKind::specular));
+  throw std::invalid_argument(
+      "model '" + std::string(model) + "': " + reason +
+      "; a model is diffuse, specular or diffuse+specular, diffuse one of " +
+      names_of(TermKind::diffuse) + ", specular one of " + names_of(TermKind::specular));
 }
 
 const TermEntry& require_term(std::string_view model, std::string_view name) {

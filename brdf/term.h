@@ -40,7 +40,7 @@ concept Term = requires(const std::array<double, T::shape.size()>& shape,
   { T::description } -> std::convertible_to<TermDescription>;
   {
     T::template basis<double, double>(shape, direction, direction)
-  } -> std::same_as<std::array<double, T::amplitudes.size()>>;
+    } -> std::same_as<std::array<double, T::amplitudes.size()>>;
 };
 
 }  // namespace gonio::brdf

@@ -86,7 +86,8 @@ BatchModel::BatchModel(const brdf::Model& model) : model_(&model) {
 
 void BatchModel::evaluate(const DirectionChunk& chunk, std::span<const double> shape,
                           bool with_derivatives, Eigen::Ref<Eigen::MatrixXd> columns) const {
-  Columns out{columns.data(), columns.data() + Eigen::Index(amplitude_count()) * columns.outerStride(),
+  Columns out{columns.data(),
+              columns.data() + Eigen::Index(amplitude_count()) * columns.outerStride(),
               columns.outerStride()};
   const double* theta = shape.data();
   for (const brdf::TermEntry* term : model_->terms()) {

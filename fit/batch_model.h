@@ -1,12 +1,11 @@
 // A model's basis functions, and their derivatives by the shape, for many directions at once.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "brdf/model.h"
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "table/parallel.h"
 #include "fit/weighted_samples.h"
+#include "table/parallel.h"
 
 namespace gonio::fit {
 

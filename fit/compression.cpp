@@ -1,10 +1,9 @@
 #include "fit/compression.h"
 
+#include <Eigen/Householder>
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include <Eigen/Householder>
 
 namespace gonio::fit {
 namespace {
@@ -72,7 +71,9 @@ class Folding {
   }
 
   Eigen::MatrixXd factor() const { return matrix_.topLeftCorner(columns_, columns_); }
-  Eigen::MatrixXd projected() const { return matrix_.topRightCorner(columns_, unreachable_.size()); }
+  Eigen::MatrixXd projected() const {
+    return matrix_.topRightCorner(columns_, unreachable_.size());
+  }
   const Eigen::VectorXd& unreachable() const { return unreachable_; }
 
  private:

@@ -4,11 +4,10 @@
 // cost, memory independent of N, and no squared condition number as normal equations have.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <span>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "fit/batch_model.h"
 #include "fit/chunk_pass.h"

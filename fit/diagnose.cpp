@@ -62,22 +62,21 @@ void warn_of_undetermined(const FitResult& result, const Identifiability& identi
         group.size() == 1 && result.unknowns[group.front()].is_shape &&
         term_is_absent(result, result.model.shape()[result.unknowns[group.front()].index].term);
     if (group.empty() || of_absent_term) continue;
-    const std::vector<std::string> names =
-        names_of(group, result.unknowns, result.channels.size());
+    const std::vector<std::string> names = names_of(group, result.unknowns, result.channels.size());
     const auto names_one_of = [&](std::string_view wanted) {
       return std::find(names.begin(), names.end(), wanted) != names.end();
     };
     std::string advice = "measure other directions, or fix one with --fix";
     if (names_one_of("alpha_x") || names_one_of("alpha_y")) {
       advice =
-          "the half vectors cover no azimuth there, so that alpha_x cannot be told against alpha_y: "
+          "the half vectors cover no azimuth there, so that alpha_x cannot be told against "
+          "alpha_y: "
           "turn the sample and measure again, or fit an isotropic model";
     }
-    warnings.push_back(
-        names.size() == 1
-            ? fmt::format("these directions cannot determine {}: {}", names.front(), advice)
-            : fmt::format("these directions cannot tell {} apart: {}", fmt::join(names, ", "),
-                          advice));
+    warnings.push_back(names.size() == 1 ? fmt::format("these directions cannot determine {}: {}",
+                                                       names.front(), advice)
+                                         : fmt::format("these directions cannot tell {} apart: {}",
+                                                       fmt::join(names, ", "), advice));
   }
 }
 
@@ -89,8 +88,8 @@ void warn_of_amplitudes_at_zero(const FitResult& result, const Box& box,
         !shape_names(result.model, result.model.amplitudes()[unknown.index].term).empty()) {
       continue;  // said of the whole term
     }
-    warnings.push_back(fmt::format("{} ends at its bound 0: the data would have it negative",
-                                   unknown.name));
+    warnings.push_back(
+        fmt::format("{} ends at its bound 0: the data would have it negative", unknown.name));
   }
 }
 
@@ -118,9 +117,9 @@ void warn_of_weak_shapes(const FitResult& result, std::vector<std::string>& warn
     const double value = std::abs(result.values[result.unknowns[u]]);
     const double stddev = *result.uncertainty.stddev[u];
     if (stddev <= 0.5 * value) continue;
-    warnings.push_back(fmt::format(
-        "{} is hardly determined: its standard deviation is {:.0f} % of its value",
-        result.unknowns[u].name, 100 * stddev / std::max(value, 1e-300)));
+    warnings.push_back(
+        fmt::format("{} is hardly determined: its standard deviation is {:.0f} % of its value",
+                    result.unknowns[u].name, 100 * stddev / std::max(value, 1e-300)));
   }
 }
 
@@ -149,9 +148,8 @@ void warn_of_misfit(const FitResult& result, std::vector<std::string>& warnings)
       "reduced chi-square is {:.3g}: the residuals are larger than the given noise explains, the "
       "model does not describe this material to that precision{}",
       *result.uncertainty.reduced_chi2,
-      result.uncertainty.kind == Covariance::sandwich
-          ? "; the intervals are sandwich intervals"
-          : ""));
+      result.uncertainty.kind == Covariance::sandwich ? "; the intervals are sandwich intervals"
+                                                      : ""));
 }
 
 }  // namespace

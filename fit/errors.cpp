@@ -17,15 +17,15 @@ constexpr std::array<std::string_view, 5> metric_names{"l2", "cosine-l2", "log",
                                                        "relative"};
 
 /// The median of a channel's magnitudes over the used samples, exactly and in constant memory: the
-/// bits of non-negative doubles are ordered like the numbers, so that 16 bits a pass narrow it down.
+/// bits of non-negative doubles are ordered like the numbers, so that 16 bits a pass narrow it
+/// down.
 double median_magnitude(const std::vector<double>& channel, const table::SampleFilter& filter) {
   constexpr int digit_bits = 16;
   std::uint64_t prefix = 0;
   std::uint64_t rank = 0;
   for (int shift = 64 - digit_bits; shift >= 0; shift -= digit_bits) {
     const bool first = shift == 64 - digit_bits;
-    const std::uint64_t prefix_mask =
-        first ? 0 : ~std::uint64_t(0) << (shift + digit_bits);
+    const std::uint64_t prefix_mask = first ? 0 : ~std::uint64_t(0) << (shift + digit_bits);
     std::vector<std::uint64_t> histogram(std::size_t(1) << digit_bits);
     std::uint64_t total = 0;
     for (std::size_t i = 0; i < channel.size(); ++i) {
@@ -102,7 +102,9 @@ ErrorList errors_of(const table::SampleTable& table, double max_theta_deg, const
   };
   const std::vector<State> parts = chunk_pass(
       samples, passes,
-      [&] { return State{{}, Eigen::MatrixXd(chunk_rows, Eigen::Index(model.amplitude_count()))}; },
+      [&] {
+        return State{{}, Eigen::MatrixXd(chunk_rows, Eigen::Index(model.amplitude_count()))};
+      },
       [&](const SampleChunk& chunk, State& state) {
         model.evaluate(chunk.directions, values.shape, false, state.basis);
         const Eigen::MatrixXd model_values =

@@ -95,8 +95,8 @@ FitResult fit(const brdf::Model& model, const table::SampleTable& table, const O
 
   std::optional<WeightedSamples> samples(std::in_place, table, batch, options);
   require_enough_values(*samples, box, unknowns);
-  const table::SampleTable subset = representative_subset(
-      table, samples->filter(), samples->used_samples(), subset_samples);
+  const table::SampleTable subset =
+      representative_subset(table, samples->filter(), samples->used_samples(), subset_samples);
   const std::vector<Start> starts = search_starts(subset, batch, box, options);
   Solution solution = best_solution(*samples, batch, box, starts, passes.options());
 
@@ -116,23 +116,23 @@ FitResult fit(const brdf::Model& model, const table::SampleTable& table, const O
   }
 
   const Identifiability identifiability(solution.compressed, batch, box, solution.values, unknowns);
-  FitResult result{.model = model,
-                   .channels = table.channels,
-                   .metric = options.metric,
-                   .unknowns = unknowns,
-                   .values = solution.values,
-                   .uncertainty = uncertainty_of(solution, identifiability, *samples, batch, box,
-                                                 unknowns, options, passes.options()),
-                   .cost = solution.cost,
-                   .metric_error = 0,
-                   .errors = errors_of(table, options.max_theta_deg, batch, solution.values,
-                                       passes.options()),
-                   .samples = table.size(),
-                   .used = samples->used_samples(),
-                   .converged = solution.converged,
-                   .iterations = solution.iterations,
-                   .passes = 0,
-                   .warnings = {}};
+  FitResult result{
+      .model = model,
+      .channels = table.channels,
+      .metric = options.metric,
+      .unknowns = unknowns,
+      .values = solution.values,
+      .uncertainty = uncertainty_of(solution, identifiability, *samples, batch, box, unknowns,
+                                    options, passes.options()),
+      .cost = solution.cost,
+      .metric_error = 0,
+      .errors = errors_of(table, options.max_theta_deg, batch, solution.values, passes.options()),
+      .samples = table.size(),
+      .used = samples->used_samples(),
+      .converged = solution.converged,
+      .iterations = solution.iterations,
+      .passes = 0,
+      .warnings = {}};
   result.metric_error = metric_error_of(result, samples->used_values());
   result.passes = passes.count();
   result.warnings = diagnose(result, box, identifiability);

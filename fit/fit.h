@@ -4,7 +4,8 @@
 //   FitResult result = fit::fit(brdf::Model("ward-aniso"), table, {});
 //
 // Ceres moves the shape; the amplitudes are projected out (projection.h), and the table is
-// compressed to a few rows (compression.h), so that the memory of a fit is the table plus a constant.
+// compressed to a few rows (compression.h), so that the memory of a fit is the table plus a
+// constant.
 #pragma once
 
 #include <span>

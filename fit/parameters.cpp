@@ -31,9 +31,10 @@ std::vector<Unknown> matching(std::span<const Unknown> unknowns, const std::stri
   std::copy_if(unknowns.begin(), unknowns.end(), std::back_inserter(found),
                [&](const Unknown& u) { return u.name == name || u.parameter == name; });
   if (found.empty()) {
-    throw std::invalid_argument(fmt::format("model {} with these channels has no parameter '{}'; "
-                                            "it has {}",
-                                            model.name(), name, names_of(unknowns)));
+    throw std::invalid_argument(
+        fmt::format("model {} with these channels has no parameter '{}'; "
+                    "it has {}",
+                    model.name(), name, names_of(unknowns)));
   }
   return found;
 }
@@ -72,9 +73,8 @@ std::vector<Unknown> unknowns_of(const brdf::Model& model, std::span<const std::
 }
 
 double ParameterValues::operator[](const Unknown& unknown) const {
-  return unknown.is_shape
-             ? shape[unknown.index]
-             : amplitudes(Eigen::Index(unknown.index), Eigen::Index(unknown.channel));
+  return unknown.is_shape ? shape[unknown.index]
+                          : amplitudes(Eigen::Index(unknown.index), Eigen::Index(unknown.channel));
 }
 
 bool Box::is_fixed(const Unknown& unknown) const { return lower(unknown) == upper(unknown); }

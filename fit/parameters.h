@@ -1,12 +1,11 @@
 // The unknowns of a fit in one row: per term its amplitudes, channel by channel, then its shape.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "brdf/model.h"
 #include "fit/options.h"
@@ -45,7 +44,6 @@ struct Box {
 /// The model's own bounds, narrowed by options.bounds and options.fixed. Throws
 /// std::invalid_argument for a parameter that the model has not, a value outside the bounds, or
 /// bounds that leave nothing.
-Box box_of(const brdf::Model& model, std::span<const std::string> channels,
-           const Options& options);
+Box box_of(const brdf::Model& model, std::span<const std::string> channels, const Options& options);
 
 }  // namespace gonio::fit

@@ -1,10 +1,9 @@
 #include "fit/projection.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <vector>
-
-#include <Eigen/QR>
 
 namespace gonio::fit {
 namespace {
@@ -22,9 +21,15 @@ Eigen::VectorXd solve_with(const Eigen::MatrixXd& matrix, const Eigen::VectorXd&
   std::vector<Eigen::Index> free;
   for (Eigen::Index k = 0; k < matrix.cols(); ++k) {
     switch (places[std::size_t(k)]) {
-      case Place::free: free.push_back(k); break;
-      case Place::at_lower: x[k] = lower[k]; break;
-      case Place::at_upper: x[k] = upper[k]; break;
+      case Place::free:
+        free.push_back(k);
+        break;
+      case Place::at_lower:
+        x[k] = lower[k];
+        break;
+      case Place::at_upper:
+        x[k] = upper[k];
+        break;
     }
   }
   if (free.empty()) return x;

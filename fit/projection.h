@@ -3,9 +3,8 @@
 // (1975) Jacobian. Everything happens in the compressed problem of a few rows per channel.
 #pragma once
 
-#include <span>
-
 #include <Eigen/Core>
+#include <span>
 
 #include "fit/batch_model.h"
 #include "fit/compression.h"

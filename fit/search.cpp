@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "fit/compression.h"
-#include "table/parallel.h"
 #include "fit/projection.h"
 #include "fit/solve.h"
 #include "fit/weighted_samples.h"
+#include "table/parallel.h"
 
 namespace gonio::fit {
 namespace {
@@ -31,9 +31,8 @@ Axis axis_between(double lower, double upper, brdf::Scale scale, std::size_t cou
   Axis axis;
   for (std::size_t i = 0; i < count; ++i) {
     const double t = double(i) / double(count - 1);
-    axis.points.push_back(scale == brdf::Scale::logarithmic
-                              ? lower * std::pow(upper / lower, t)
-                              : lower + t * (upper - lower));
+    axis.points.push_back(scale == brdf::Scale::logarithmic ? lower * std::pow(upper / lower, t)
+                                                            : lower + t * (upper - lower));
     axis.points.back() = std::clamp(axis.points.back(), lower, upper);
   }
   return axis;
@@ -66,9 +65,9 @@ std::vector<Axis> scan_axes(const brdf::Model& model, const Box& box, const Opti
         std::clamp(descriptor.search_lower, box.shape_lower[j], box.shape_upper[j]);
     const double upper =
         std::clamp(descriptor.search_upper, box.shape_lower[j], box.shape_upper[j]);
-    axes.push_back(lower < upper ? axis_between(lower, upper, descriptor.scale,
-                                                points_per_axis(unknown_count))
-                                 : Axis{{lower}});
+    axes.push_back(
+        lower < upper ? axis_between(lower, upper, descriptor.scale, points_per_axis(unknown_count))
+                      : Axis{{lower}});
   }
   return axes;
 }

@@ -27,7 +27,7 @@ struct Start {
 /// Starts, best first: the local minima, solved on `subset`, of a scan over the
 /// shape's search range (with the amplitudes projected out), as far as their cost comes near the
 /// best one's. Parameters with a start value or a fixed one keep it in the scan.
-std::vector<Start> search_starts(const table::SampleTable& subset,
-                                 const BatchModel& model, const Box& box, const Options& options);
+std::vector<Start> search_starts(const table::SampleTable& subset, const BatchModel& model,
+                                 const Box& box, const Options& options);
 
 }  // namespace gonio::fit

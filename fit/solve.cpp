@@ -150,8 +150,7 @@ Solution solve(const WeightedSamples& samples, const BatchModel& model, const Bo
     for (std::size_t v = 0; v < variables.size(); ++v) {
       const std::size_t j = variables[v].index();
       // exp(log(bound)) may miss the bound by a rounding.
-      shape[j] =
-          std::clamp(variables[v].to_shape(x[v]), box.shape_lower[j], box.shape_upper[j]);
+      shape[j] = std::clamp(variables[v].to_shape(x[v]), box.shape_lower[j], box.shape_upper[j]);
     }
     evaluation.move_to(shape);
   }

@@ -1,10 +1,9 @@
 #include "fit/uncertainty.h"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-
-#include <Eigen/SVD>
 
 #include "fit/chunk_pass.h"
 
@@ -23,8 +22,7 @@ Eigen::MatrixXd full_jacobian(const Compressed& compressed, const BatchModel& mo
   const Eigen::Index rows = compressed.projected.rows();
   const Eigen::Index channels = compressed.projected.cols();
   const auto amplitude_count = Eigen::Index(model.amplitude_count());
-  Eigen::MatrixXd jacobian =
-      Eigen::MatrixXd::Zero(rows * channels, Eigen::Index(unknowns.size()));
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows * channels, Eigen::Index(unknowns.size()));
   for (std::size_t u = 0; u < unknowns.size(); ++u) {
     const Unknown& unknown = unknowns[u];
     auto column = jacobian.col(Eigen::Index(u));
@@ -55,8 +53,7 @@ void write_scores(const SampleChunk& chunk, const Eigen::MatrixXd& columns, cons
   const auto amplitude_count = Eigen::Index(model.amplitude_count());
   const auto basis = columns.topLeftCorner(rows, amplitude_count);
   // residual * factor^2, [row, channel].
-  Eigen::MatrixXd weighted =
-      chunk.values.topRows(rows) - basis * values.amplitudes;
+  Eigen::MatrixXd weighted = chunk.values.topRows(rows) - basis * values.amplitudes;
   for (Eigen::Index c = 0; c < weighted.cols(); ++c) {
     const auto factor = chunk.factors.col(shared_factors ? 0 : c).head(rows).array();
     weighted.col(c).array() *= factor * factor;
@@ -176,8 +173,7 @@ Uncertainty uncertainty_of(const Solution& solution, const Identifiability& iden
                            const WeightedSamples& samples, const BatchModel& model, const Box& box,
                            std::span<const Unknown> unknowns, const Options& options,
                            const PassOptions& passes) {
-  const double freedom =
-      double(samples.used_values()) - double(identifiability.free_count());
+  const double freedom = double(samples.used_values()) - double(identifiability.free_count());
   const double variance = freedom > 0 ? 2 * solution.cost / freedom : 0;
 
   Uncertainty result;
@@ -191,8 +187,7 @@ Uncertainty uncertainty_of(const Solution& solution, const Identifiability& iden
   if (result.kind == Covariance::residual) {
     covariance *= variance;
   } else if (result.kind == Covariance::sandwich) {
-    const Eigen::MatrixXd meat =
-        score_products(samples, model, solution.values, unknowns, passes);
+    const Eigen::MatrixXd meat = score_products(samples, model, solution.values, unknowns, passes);
     const double values = double(samples.used_values());
     const double small_sample = freedom > 0 ? values / freedom : 1;
     covariance = small_sample * covariance * meat * covariance;
@@ -204,10 +199,9 @@ Uncertainty uncertainty_of(const Solution& solution, const Identifiability& iden
   result.correlation.assign(count, std::vector<std::optional<double>>(count));
   const bool estimable = freedom > 0 || result.kind == Covariance::known_sigma;
   if (!estimable) return result;
-  const double quantile =
-      result.kind == Covariance::known_sigma
-          ? 1.959963984540054  // of the normal distribution at 97.5 %
-          : boost::math::quantile(boost::math::students_t(freedom), 0.975);
+  const double quantile = result.kind == Covariance::known_sigma
+                              ? 1.959963984540054  // of the normal distribution at 97.5 %
+                              : boost::math::quantile(boost::math::students_t(freedom), 0.975);
   for (std::size_t u = 0; u < count; ++u) {
     if (box.is_fixed(unknowns[u]) || identifiability.is_undetermined(u)) continue;
     const auto i = Eigen::Index(u);

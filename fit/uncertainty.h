@@ -1,13 +1,12 @@
 // How sure each parameter is: the covariance of all the unknowns from the Jacobian at the optimum.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "fit/batch_model.h"
 #include "fit/options.h"

@@ -121,10 +121,10 @@ void WeightedSamples::gather(std::size_t chunk_index, SampleChunk& chunk) const 
       if (std::isnan(value)) {
         factor = 0;
       } else if (noise_) {
-        factor *= factor_of_noise(
-            reference_ == nullptr
-                ? value
-                : reference_basis.row(row).dot(reference_->amplitudes.col(column)));
+        factor *=
+            factor_of_noise(reference_ == nullptr
+                                ? value
+                                : reference_basis.row(row).dot(reference_->amplitudes.col(column)));
       } else if (metric_ == Metric::chi2) {
         factor /= table_->sigma[c][rows[r]];
       }

@@ -1,10 +1,9 @@
 // The samples that a fit uses, chunk by chunk, and how much each counts under the metric.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
-
-#include <Eigen/Core>
 
 #include "fit/batch_model.h"
 #include "fit/options.h"

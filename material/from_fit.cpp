@@ -44,9 +44,8 @@ FitSummary summary_of(const fit::FitResult& result) {
 Material from_fit(const fit::FitResult& result, const table::SampleTable& table,
                   const std::string& command) {
   Material material;
-  material.name = table.name.empty()
-                      ? std::filesystem::path(table.provenance.path).stem().string()
-                      : table.name;
+  material.name = table.name.empty() ? std::filesystem::path(table.provenance.path).stem().string()
+                                     : table.name;
   material.model = result.model.name();
   material.channels = result.channels;
   material.parameters = parameters_of(result);

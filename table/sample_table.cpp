@@ -8,19 +8,26 @@ namespace gonio::table {
 
 std::string_view name(MaskReason reason) {
   switch (reason) {
-    case MaskReason::none: return "none";
-    case MaskReason::horizon: return "horizon";
-    case MaskReason::hole: return "hole";
-    case MaskReason::extrapolated: return "extrapolated";
+    case MaskReason::none:
+      return "none";
+    case MaskReason::horizon:
+      return "horizon";
+    case MaskReason::hole:
+      return "hole";
+    case MaskReason::extrapolated:
+      return "extrapolated";
   }
   return "";
 }
 
 std::string_view name(Quantity quantity) {
   switch (quantity) {
-    case Quantity::brdf: return "brdf";
-    case Quantity::brdf_cos: return "brdf_cos";
-    case Quantity::reflectance_factor: return "reflectance_factor";
+    case Quantity::brdf:
+      return "brdf";
+    case Quantity::brdf_cos:
+      return "brdf_cos";
+    case Quantity::reflectance_factor:
+      return "reflectance_factor";
   }
   return "";
 }

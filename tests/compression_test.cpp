@@ -1,12 +1,12 @@
 // The compressed problem is the whole problem: same residual norms, same solutions, same gradient.
+#include "fit/compression.h"
+
 #include <gtest/gtest.h>
 
+#include <Eigen/QR>
 #include <cmath>
 #include <random>
 
-#include <Eigen/QR>
-
-#include "fit/compression.h"
 #include "fit/projection.h"
 #include "instrument/synthesize.h"
 #include "tests/ward_materials.h"
@@ -113,9 +113,9 @@ TEST(Compression, DoesNoHarmToARankDeficientProblem) {
   const fit::BatchModel batch(model);
   const fit::Options options{.metric = fit::Metric::l2, .fixed = {{"rho_s", 0}}};
   const fit::WeightedSamples samples(table, batch, options);
-  const fit::Projected projected = fit::project(
-      fit::compress(samples, batch, std::array{1e-4, 1e-4}, true, {}), batch,
-      fit::box_of(model, table.channels, options), true);
+  const fit::Projected projected =
+      fit::project(fit::compress(samples, batch, std::array{1e-4, 1e-4}, true, {}), batch,
+                   fit::box_of(model, table.channels, options), true);
   EXPECT_TRUE(projected.residuals.allFinite());
   EXPECT_TRUE(projected.jacobian.allFinite());
   EXPECT_TRUE((projected.jacobian.array() == 0).all());

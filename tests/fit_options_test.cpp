@@ -41,8 +41,8 @@ std::size_t index_of(const fit::FitResult& result, const std::string& name) {
 
 TEST(FixedParameters, StayAndHaveNoUncertainty) {
   const table::SampleTable table = noisy_brass();
-  const fit::FitResult result = fit::fit(brdf::Model("ward-aniso"), table,
-                                         {.fixed = {{"alpha_y", 0.2}, {"rho_d.Y", 0.05}}});
+  const fit::FitResult result =
+      fit::fit(brdf::Model("ward-aniso"), table, {.fixed = {{"alpha_y", 0.2}, {"rho_d.Y", 0.05}}});
   EXPECT_EQ(value_of(result, "alpha_y"), 0.2);
   EXPECT_EQ(value_of(result, "rho_d.Y"), 0.05);
   EXPECT_FALSE(result.uncertainty.stddev[index_of(result, "alpha_y")].has_value());
@@ -53,9 +53,8 @@ TEST(FixedParameters, StayAndHaveNoUncertainty) {
 }
 
 TEST(FixedParameters, MayBeAllOfTheShape) {
-  const fit::FitResult result =
-      fit::fit(brdf::Model("ward-aniso"), noisy_brass(),
-               {.fixed = {{"alpha_x", 0.05}, {"alpha_y", 0.16}}});
+  const fit::FitResult result = fit::fit(brdf::Model("ward-aniso"), noisy_brass(),
+                                         {.fixed = {{"alpha_x", 0.05}, {"alpha_y", 0.16}}});
   EXPECT_TRUE(result.converged);
   EXPECT_NEAR(value_of(result, "rho_s.Y"), 0.33, 0.01);  // 3 %, a dozen standard deviations
 }
@@ -72,8 +71,8 @@ TEST(Bounds, HoldAndAreWarnedOf) {
 TEST(AStartValue, ReplacesTheSearch) {
   const table::SampleTable table = noisy_brass();
   const fit::FitResult searched = fit::fit(brdf::Model("ward-aniso"), table, {});
-  const fit::FitResult started = fit::fit(brdf::Model("ward-aniso"), table,
-                                          {.start = {{"alpha_x", 0.06}, {"alpha_y", 0.12}}});
+  const fit::FitResult started =
+      fit::fit(brdf::Model("ward-aniso"), table, {.start = {{"alpha_x", 0.06}, {"alpha_y", 0.12}}});
   // Both stop at the same minimum, each to the solver's step tolerance.
   EXPECT_NEAR(value_of(started, "alpha_x"), value_of(searched, "alpha_x"), 1e-8);
   EXPECT_NEAR(value_of(started, "alpha_y"), value_of(searched, "alpha_y"), 1e-8);
@@ -81,8 +80,7 @@ TEST(AStartValue, ReplacesTheSearch) {
 
 TEST(MaxTheta, LeavesOutBothAnglesBeyondItAndIsInclusive) {
   const table::SampleTable table = noisy_brass();
-  const fit::FitResult result =
-      fit::fit(brdf::Model("ward-aniso"), table, {.max_theta_deg = 55});
+  const fit::FitResult result = fit::fit(brdf::Model("ward-aniso"), table, {.max_theta_deg = 55});
   std::size_t within = 0;
   for (std::size_t i = 0; i < table.size(); ++i) {
     const double theta_i = std::acos(table.wi.z[i]) * 180 / M_PI;
@@ -203,8 +201,7 @@ TEST(Warnings, SayThatRoughnessMeansNothingWithoutALobe) {
 TEST(Warnings, SayThatMoreLightLeavesThanArrives) {
   instrument::Recipe recipe = ward_recipe(ward_materials[6], "ward");
   recipe.parameters["rho_s"] = {0.4};
-  const fit::FitResult result =
-      fit::fit(brdf::Model("ward"), instrument::synthesize(recipe), {});
+  const fit::FitResult result = fit::fit(brdf::Model("ward"), instrument::synthesize(recipe), {});
   EXPECT_THAT(result.warnings, Contains(HasSubstr("over 1")));
 }
 

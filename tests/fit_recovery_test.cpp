@@ -27,8 +27,7 @@ TEST_P(EveryWardVariant, IsRecoveredFromNoiseFreeTablesOfWardsMaterials) {
     const instrument::Recipe recipe = ward_recipe(material, GetParam());
     const table::SampleTable table = instrument::synthesize(recipe);
     for (const fit::Metric metric : {fit::Metric::l2, fit::Metric::cosine_l2}) {
-      const fit::FitResult result =
-          fit::fit(brdf::Model(GetParam()), table, {.metric = metric});
+      const fit::FitResult result = fit::fit(brdf::Model(GetParam()), table, {.metric = metric});
       EXPECT_TRUE(result.converged);
       for (const auto& [parameter, values] : recipe.parameters) {
         const double error = std::abs(value_of(result, parameter) / values.front() - 1);
@@ -59,16 +58,14 @@ TEST(NoisyWardMaterials, LieWithinTheir999PerCentIntervals) {
     instrument::Recipe recipe = ward_recipe(material, "ward-aniso");
     recipe.noise = {.relative = 0.02, .floor = 1e-3, .seed = seed++};
     recipe.sigma_columns = true;
-    const fit::FitResult result =
-        fit::fit(brdf::Model("ward-aniso"), instrument::synthesize(recipe),
-                 {.metric = fit::Metric::chi2});
+    const fit::FitResult result = fit::fit(
+        brdf::Model("ward-aniso"), instrument::synthesize(recipe), {.metric = fit::Metric::chi2});
     EXPECT_EQ(result.uncertainty.kind, fit::Covariance::known_sigma);
     for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
       const fit::Unknown& unknown = result.unknowns[u];
       ASSERT_TRUE(result.uncertainty.stddev[u].has_value()) << unknown.name;
       const double truth = recipe.parameters.at(unknown.parameter).front();
-      const double deviations =
-          (result.values[unknown] - truth) / *result.uncertainty.stddev[u];
+      const double deviations = (result.values[unknown] - truth) / *result.uncertainty.stddev[u];
       // The normal distribution's quantile at 99.95 %.
       EXPECT_LE(std::abs(deviations), 3.2905) << material.name << " " << unknown.name;
     }
@@ -82,8 +79,9 @@ TEST(NoiseFromTheModel, DoesNotPullTheAmplitudesDown) {
   // 2 relative^2, here 2 %; the standard deviation of rho_d is a tenth of that.
   instrument::Recipe recipe = ward_recipe(ward_materials[8], "ward");
   recipe.noise = {.relative = 0.1, .floor = 1e-6, .seed = 7};
-  const fit::FitResult result = fit::fit(brdf::Model("ward"), instrument::synthesize(recipe),
-                                         {.metric = fit::Metric::chi2, .noise = fit::Noise{0.1, 1e-6}});
+  const fit::FitResult result =
+      fit::fit(brdf::Model("ward"), instrument::synthesize(recipe),
+               {.metric = fit::Metric::chi2, .noise = fit::Noise{0.1, 1e-6}});
   EXPECT_TRUE(result.converged);
   const double truth = ward_materials[8].rho_d;
   const double stddev = *result.uncertainty.stddev[0];
@@ -98,11 +96,9 @@ TEST(AFit, GivesTheSameBitsForAnyNumberOfThreads) {
   recipe.noise = {.relative = 0.02, .floor = 1e-3, .seed = 3};
   const table::SampleTable table = instrument::synthesize(recipe);
   ASSERT_GT(table.size(), 50000u);
-  const fit::FitResult one =
-      fit::fit(brdf::Model("ward-aniso"), table, {.threads = 1});
+  const fit::FitResult one = fit::fit(brdf::Model("ward-aniso"), table, {.threads = 1});
   for (const int threads : {2, 3, 7}) {
-    const fit::FitResult many =
-        fit::fit(brdf::Model("ward-aniso"), table, {.threads = threads});
+    const fit::FitResult many = fit::fit(brdf::Model("ward-aniso"), table, {.threads = threads});
     EXPECT_EQ(many.values.shape, one.values.shape);
     EXPECT_EQ(many.values.amplitudes, one.values.amplitudes);
     EXPECT_EQ(many.uncertainty.stddev, one.uncertainty.stddev);

@@ -65,8 +65,8 @@ TEST(TheGlobalMinimum, IsFoundForAHundredTruthsWithoutAStartValue) {
     worst_ratio = std::max(worst_ratio, result.cost / scanned);
   }
   std::filesystem::remove_all(folder);
-  std::printf("global minimum found for %d of 100 truths; largest cost / scan's best: %.9f\n", found,
-              worst_ratio);
+  std::printf("global minimum found for %d of 100 truths; largest cost / scan's best: %.9f\n",
+              found, worst_ratio);
 }
 
 class EveryPaint : public testing::TestWithParam<const char*> {};
@@ -74,10 +74,9 @@ class EveryPaint : public testing::TestWithParam<const char*> {};
 TEST_P(EveryPaint, IsFittedNoWorseThanByADenseScan) {
   GONIO_REAL_DATA_OR_SKIP(path, fmt::format("paints/{}.astm", GetParam()));
   const table::SampleTable table = table::read(path);
-  for (const auto& [name, lobe] : {std::pair{"ward-gmd", &WardScan::ward_gmd},
-                                   std::pair{"ward-duer", &WardScan::ward_duer}}) {
-    const fit::FitResult result =
-        fit::fit(brdf::Model(name), table, {.metric = fit::Metric::l2});
+  for (const auto& [name, lobe] :
+       {std::pair{"ward-gmd", &WardScan::ward_gmd}, std::pair{"ward-duer", &WardScan::ward_duer}}) {
+    const fit::FitResult result = fit::fit(brdf::Model(name), table, {.metric = fit::Metric::l2});
     EXPECT_TRUE(result.converged) << name;
     const WardScan scan(table, 80);
     const double scanned = scan.least_cost_over_one_roughness(lobe);
@@ -89,12 +88,11 @@ TEST_P(EveryPaint, IsFittedNoWorseThanByADenseScan) {
 
 INSTANTIATE_TEST_SUITE_P(
     Paints, EveryPaint,
-    testing::Values("C10_Copper", "C12_OliveDrab", "C14_NavyBlue", "C16_StrongGreen",
-                    "C18_rlm70_1", "C1_White", "C21_MiddleStone", "C23_DarkGreen2",
-                    "C26_DarkEggGreenGray", "C28_BlackishIronBlue", "C2_Black",
-                    "C32_WarshipColor2", "C35_BrightGray", "C37_RLM75", "C39_DarkYellow",
-                    "C4_Yellow", "C6_Green", "C8_Silver", "Char_Pink", "Metal_Blue",
-                    "Metal_Purpule", "Metal_Yellow"),
+    testing::Values("C10_Copper", "C12_OliveDrab", "C14_NavyBlue", "C16_StrongGreen", "C18_rlm70_1",
+                    "C1_White", "C21_MiddleStone", "C23_DarkGreen2", "C26_DarkEggGreenGray",
+                    "C28_BlackishIronBlue", "C2_Black", "C32_WarshipColor2", "C35_BrightGray",
+                    "C37_RLM75", "C39_DarkYellow", "C4_Yellow", "C6_Green", "C8_Silver",
+                    "Char_Pink", "Metal_Blue", "Metal_Purpule", "Metal_Yellow"),
     [](const auto& instance) { return std::string(instance.param); });
 
 }  // namespace

@@ -139,7 +139,7 @@ TEST(BoundModelTest, RefusesUnsuitableValuesAndNamesTheParameter) {
     const std::array<NamedValues, 3> values{
         {{"rho_d", c.rho_d}, {"rho_s", c.rho_s}, {"alpha", c.alpha}}};
     try {
-      BoundModel(Model("ward"), 2, values);
+      const BoundModel accepted(Model("ward"), 2, values);
       ADD_FAILURE() << "accepted: " << c.reason;
     } catch (const ParameterError& error) {
       EXPECT_EQ(error.parameter(), c.parameter);

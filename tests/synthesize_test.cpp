@@ -69,7 +69,9 @@ TEST(SynthesizeTest, GoesThroughIncidenceRotationHemisphereAndPatch) {
           1e-5)
           << "the lamp stays at azimuth 0 of the laboratory";
     }
-    const auto wo = [&](std::size_t k) { return in_laboratory(t.wo[first + k], rotation); };
+    const auto wo = [&, rotation = rotation](std::size_t k) {
+      return in_laboratory(t.wo[first + k], rotation);
+    };
     EXPECT_LT(angle_between(wo(0), {0, 0, 1}), 1e-5);
     EXPECT_LT(angle_between(wo(1), brdf::direction_from_degrees(20, 0)), 1e-5);
     EXPECT_LT(angle_between(wo(2), brdf::direction_from_degrees(20, 90)), 1e-5);

@@ -139,8 +139,8 @@ std::vector<TimedFit> fit_models(const std::vector<brdf::Model>& models,
                                  const table::SampleTable& table, fit::Options options) {
   std::vector<TimedFit> fits;
   for (const brdf::Model& model : models) {
-    const std::string what = fmt::format("fitting {} ({} of {})", model.name(), fits.size() + 1,
-                                         models.size());
+    const std::string what =
+        fmt::format("fitting {} ({} of {})", model.name(), fits.size() + 1, models.size());
     ProgressLine progress(what);
     options.progress = [&](int pass, double share) {
       progress.set(fmt::format("{}, pass {}", what, pass), share);
@@ -173,8 +173,7 @@ void write_residuals(const std::string& path, const table::SampleTable& table,
 
 nlohmann::ordered_json json_of(const TimedFit& timed, const table::SampleTable& table,
                                const std::string& command, double read_seconds) {
-  nlohmann::ordered_json json =
-      material::to_json(material::from_fit(timed.result, table, command));
+  nlohmann::ordered_json json = material::to_json(material::from_fit(timed.result, table, command));
   json["timing"] = {
       {"read_s", read_seconds}, {"fit_s", timed.seconds}, {"passes", timed.result.passes}};
   return json;
@@ -228,8 +227,7 @@ void run_fit(const FitArguments& arguments, Invocation& invocation) {
   const std::vector<TimedFit> fits = fit_models(models, table, options);
 
   const fit::FitResult& best = fits.front().result;
-  const material::Material material =
-      material::from_fit(best, table, invocation.command_line);
+  const material::Material material = material::from_fit(best, table, invocation.command_line);
   if (!arguments.output.empty()) material::write_material(material, arguments.output);
   if (!arguments.residuals.empty()) write_residuals(arguments.residuals, table, material);
   if (arguments.json) {
@@ -250,29 +248,33 @@ void add_fit_command(CLI::App& app, Invocation& invocation) {
   CLI::App* command = app.add_subcommand(
       "fit", "Fit models to a table: parameters with standard deviations and 95 % intervals");
   command->add_option("TABLE", arguments->table, "the measured table, in any format")->required();
-  command->add_option("-m,--model", arguments->models,
-                      "MODEL[,MODEL..] (see gonio models), or all; without it, all the models "
-                      "that this table can determine")
+  command
+      ->add_option("-m,--model", arguments->models,
+                   "MODEL[,MODEL..] (see gonio models), or all; without it, all the models "
+                   "that this table can determine")
       ->type_name("MODEL");
   command->add_option("--metric", arguments->metric, "l2, cosine-l2 or chi2")
       ->capture_default_str()
       ->type_name("METRIC");
-  command->add_option("--noise", arguments->noise,
-                      "for chi2: sigma^2 = (REL f)^2 + ABS^2, instead of the table's sigma")
+  command
+      ->add_option("--noise", arguments->noise,
+                   "for chi2: sigma^2 = (REL f)^2 + ABS^2, instead of the table's sigma")
       ->type_name("REL,ABS");
-  command->add_option("--max-theta", arguments->max_theta,
-                      "leave out samples with a polar angle beyond it, in degrees")
+  command
+      ->add_option("--max-theta", arguments->max_theta,
+                   "leave out samples with a polar angle beyond it, in degrees")
       ->capture_default_str()
       ->type_name("DEG");
   command->add_option("--fix", arguments->fixed, "hold a parameter, e.g. alpha=0.1 or rho_d.R=0.2")
       ->type_name("P=V");
   command->add_option("--bounds", arguments->bounds, "confine a parameter, e.g. alpha=0.01:0.5")
       ->type_name("P=LO:HI");
-  command->add_option("--start", arguments->start,
-                      "start a shape parameter there instead of searching")
+  command
+      ->add_option("--start", arguments->start,
+                   "start a shape parameter there instead of searching")
       ->type_name("P=V");
-  command->add_option("--covariance", arguments->covariance,
-                      "auto, known-sigma, residual or sandwich")
+  command
+      ->add_option("--covariance", arguments->covariance, "auto, known-sigma, residual or sandwich")
       ->capture_default_str()
       ->type_name("KIND");
   command->add_option("--threads", arguments->threads, "0: all; the result is the same for any")
@@ -280,8 +282,9 @@ void add_fit_command(CLI::App& app, Invocation& invocation) {
       ->type_name("N");
   command->add_option("-o,--output", arguments->output, "write the (best) material as JSON")
       ->type_name("FILE");
-  command->add_option("--residuals", arguments->residuals,
-                      "write the table with the (best) model's values and the residuals")
+  command
+      ->add_option("--residuals", arguments->residuals,
+                   "write the table with the (best) model's values and the residuals")
       ->type_name("CSV");
   command->add_flag("--json", arguments->json, "print the result as JSON");
   command->callback([arguments, &invocation] { run_fit(*arguments, invocation); });

@@ -31,10 +31,14 @@ std::string row_of(const fit::FitResult& result, std::size_t u) {
 
 std::string_view describe(fit::Covariance kind) {
   switch (kind) {
-    case fit::Covariance::known_sigma: return "intervals from the known sigma";
-    case fit::Covariance::residual: return "intervals from the residuals' variance";
-    case fit::Covariance::sandwich: return "sandwich intervals";
-    case fit::Covariance::automatic: break;
+    case fit::Covariance::known_sigma:
+      return "intervals from the known sigma";
+    case fit::Covariance::residual:
+      return "intervals from the residuals' variance";
+    case fit::Covariance::sandwich:
+      return "sandwich intervals";
+    case fit::Covariance::automatic:
+      break;
   }
   return "";
 }
@@ -62,8 +66,10 @@ std::string report_fit(const fit::FitResult& result) {
                       "95 % interval");
   for (std::size_t u = 0; u < result.unknowns.size(); ++u) text += row_of(result, u);
   text += "\n  root mean square error:";
-  for (const auto& [metric, error] : result.errors) text += fmt::format(" {} {:.4g} ", metric, error);
-  text += "\n";
+  for (const auto& [metric, error] : result.errors) {
+    text += fmt::format("  {} {:.4g}", metric, error);
+  }
+  text += '\n';
   if (result.uncertainty.reduced_chi2) {
     text += fmt::format("  reduced chi-square: {:.4g}\n", *result.uncertainty.reduced_chi2);
   }
@@ -71,16 +77,15 @@ std::string report_fit(const fit::FitResult& result) {
 }
 
 std::string report_ranking(const std::vector<fit::FitResult>& results) {
-  std::string text = fmt::format(
-      "\n  {:<32} {:>10} {:>18} {:>10}\n", "model, best first", "parameters",
-      fmt::format("error in {}", metric_unit(results.front().metric)), "to best");
+  std::string text =
+      fmt::format("\n  {:<32} {:>10} {:>18} {:>10}\n", "model, best first", "parameters",
+                  fmt::format("error in {}", metric_unit(results.front().metric)), "to best");
   for (const fit::FitResult& result : results) {
-    text += fmt::format("  {:<32} {:>10} {:>18.6g} {:>9.3f}x{}\n", result.model.name(),
-                        result.unknowns.size(), result.metric_error,
-                        results.front().metric_error > 0
-                            ? result.metric_error / results.front().metric_error
-                            : 1.0,
-                        result.converged ? "" : "  not converged");
+    text += fmt::format(
+        "  {:<32} {:>10} {:>18.6g} {:>9.3f}x{}\n", result.model.name(), result.unknowns.size(),
+        result.metric_error,
+        results.front().metric_error > 0 ? result.metric_error / results.front().metric_error : 1.0,
+        result.converged ? "" : "  not converged");
   }
   return text;
 }
