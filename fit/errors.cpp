@@ -52,7 +52,7 @@ struct Sums {
     const double seen = std::max(0.0, value * cos_i);
     const double expected = std::max(0.0, model * cos_i);
     const std::array<double, metric_names.size()> residuals{
-        value - model, (value - model) * cos_i, std::log1p((seen - expected) / (1 + expected)),
+        value - model, (value - model) * cos_i, std::log((1 + seen) / (1 + expected)),
         std::cbrt(seen) - std::cbrt(expected), (value - model) / std::max(std::abs(value), floor)};
     for (std::size_t m = 0; m < residuals.size(); ++m) {
       squares[m] += weight_of_value * residuals[m] * residuals[m];

@@ -70,7 +70,7 @@ Solution best_solution(const WeightedSamples& samples, const BatchModel& model, 
 }
 
 bool nearly_equal(const ParameterValues& a, const ParameterValues& b) {
-  constexpr double tolerance = 1e-10;
+  constexpr double tolerance = 1e-9;
   for (std::size_t j = 0; j < a.shape.size(); ++j) {
     if (std::abs(a.shape[j] - b.shape[j]) > tolerance * std::abs(b.shape[j])) return false;
   }

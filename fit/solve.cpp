@@ -111,7 +111,7 @@ ceres::Solver::Options solver_options() {
   options.max_num_iterations = 200;
   // Residuals are scaled to a table of norm 1. A noise-free table converges quadratically down to
   // rounding, so that only the step may end it; a noisy one ends when the cost stands still.
-  options.function_tolerance = 1e-14;
+  options.function_tolerance = 1e-12;
   options.gradient_tolerance = 1e-17;
   options.parameter_tolerance = 1e-13;
   options.logging_type = ceres::SILENT;
