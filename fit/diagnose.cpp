@@ -35,80 +35,126 @@ std::vector<std::string> shape_names(const brdf::Model& model, std::size_t term)
   return names;
 }
 
-/// True if no channel has any of the term.
-bool term_is_absent(const FitResult& result, std::size_t term) {
-  for (std::size_t k = 0; k < result.model.amplitudes().size(); ++k) {
-    if (result.model.amplitudes()[k].term != term) continue;
-    if ((result.values.amplitudes.row(Eigen::Index(k)).array() != 0).any()) return false;
-  }
-  return true;
+/// The term that an unknown belongs to.
+std::size_t term_of(const FitResult& result, const Unknown& unknown) {
+  return unknown.is_shape ? result.model.shape()[unknown.index].term
+                          : result.model.amplitudes()[unknown.index].term;
 }
 
-void warn_of_absent_terms(const FitResult& result, std::vector<std::string>& warnings) {
+/// True for a shape parameter of a term that the material does not show: said of the whole term.
+bool is_shape_of_absent_term(const FitResult& result, const Identifiability& identifiability,
+                             const Unknown& unknown) {
+  return unknown.is_shape && identifiability.is_absent(term_of(result, unknown));
+}
+
+void warn_of_absent_terms(const FitResult& result, const Identifiability& identifiability,
+                          std::vector<std::string>& warnings) {
   for (std::size_t term = 0; term < result.model.terms().size(); ++term) {
     const std::vector<std::string> shape = shape_names(result.model, term);
-    if (shape.empty() || !term_is_absent(result, term)) continue;
+    if (shape.empty() || !identifiability.is_absent(term)) continue;
+    warnings.push_back(
+        fmt::format("the amplitude of {} is 0 in every channel: {} means nothing here; the "
+                    "material shows no such lobe, try a model without it",
+                    result.model.terms()[term]->description.name, fmt::join(shape, ", ")));
+  }
+}
+
+/// A lobe whose amplitude is not distinguishable from 0 in any channel.
+void warn_of_insignificant_terms(const FitResult& result, const Identifiability& identifiability,
+                                 std::vector<std::string>& warnings) {
+  for (std::size_t term = 0; term < result.model.terms().size(); ++term) {
+    const std::vector<std::string> shape = shape_names(result.model, term);
+    if (shape.empty() || identifiability.is_absent(term)) continue;
+    bool any_interval = false;
+    bool any_significant = false;
+    for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
+      const Unknown& unknown = result.unknowns[u];
+      if (unknown.is_shape || term_of(result, unknown) != term) continue;
+      const auto& interval = result.uncertainty.interval95[u];
+      any_interval = any_interval || interval.has_value();
+      // A fixed amplitude is meant.
+      any_significant = any_significant || unknown.fixed || (interval && interval->first > 0);
+    }
+    if (!any_interval || any_significant) continue;
     warnings.push_back(fmt::format(
-        "the amplitude of {} is 0 in every channel: {} means nothing here; the material shows no "
-        "such lobe, try a model without it",
+        "the amplitude of {} cannot be told from 0 in any channel: do not believe {}; the material "
+        "may show no such lobe, try a model without it",
         result.model.terms()[term]->description.name, fmt::join(shape, ", ")));
   }
 }
 
 void warn_of_undetermined(const FitResult& result, const Identifiability& identifiability,
                           std::vector<std::string>& warnings) {
+  std::vector<std::string> combinations;
+  bool roughness = false;
   for (const std::vector<std::size_t>& group : identifiability.undetermined()) {
-    const bool of_absent_term =
-        group.size() == 1 && result.unknowns[group.front()].is_shape &&
-        term_is_absent(result, result.model.shape()[result.unknowns[group.front()].index].term);
-    if (group.empty() || of_absent_term) continue;
+    if (std::all_of(group.begin(), group.end(), [&](std::size_t u) {
+          return is_shape_of_absent_term(result, identifiability, result.unknowns[u]);
+        })) {
+      continue;
+    }
     const std::vector<std::string> names = names_of(group, result.unknowns, result.channels.size());
-    const auto names_one_of = [&](std::string_view wanted) {
-      return std::find(names.begin(), names.end(), wanted) != names.end();
-    };
-    std::string advice = "measure other directions, or fix one with --fix";
-    if (names_one_of("alpha_x") || names_one_of("alpha_y")) {
-      advice =
-          "the half vectors cover no azimuth there, so that alpha_x cannot be told against "
-          "alpha_y: "
-          "turn the sample and measure again, or fit an isotropic model";
+    for (const std::string& name : names) {
+      roughness = roughness || name.starts_with("alpha_x") || name.starts_with("alpha_y");
     }
-    warnings.push_back(names.size() == 1 ? fmt::format("these directions cannot determine {}: {}",
-                                                       names.front(), advice)
-                                         : fmt::format("these directions cannot tell {} apart: {}",
-                                                       fmt::join(names, ", "), advice));
+    const std::string combination = names.size() == 1
+                                        ? fmt::format("determine {}", names.front())
+                                        : fmt::format("tell {} apart", fmt::join(names, ", "));
+    if (std::find(combinations.begin(), combinations.end(), combination) == combinations.end()) {
+      combinations.push_back(combination);
+    }
   }
+  if (combinations.empty()) return;
+  warnings.push_back(fmt::format(
+      "these directions cannot {}: {}", fmt::join(combinations, ", nor "),
+      roughness
+          ? "where the half vectors cover no azimuth, alpha_x cannot be told against alpha_y; "
+            "turn the sample and measure again, or fit an isotropic model"
+          : "measure other directions, or fix one with --fix"));
 }
 
-void warn_of_amplitudes_at_zero(const FitResult& result, const Box& box,
-                                std::vector<std::string>& warnings) {
-  for (const Unknown& unknown : result.unknowns) {
-    if (unknown.is_shape || box.is_fixed(unknown) || result.values[unknown] != 0) continue;
-    if (term_is_absent(result, result.model.amplitudes()[unknown.index].term) &&
-        !shape_names(result.model, result.model.amplitudes()[unknown.index].term).empty()) {
-      continue;  // said of the whole term
-    }
-    warnings.push_back(
-        fmt::format("{} ends at its bound 0: the data would have it negative", unknown.name));
-  }
-}
-
-void warn_of_shapes_at_bounds(const FitResult& result, const Box& box,
-                              std::vector<std::string>& warnings) {
-  for (const Unknown& unknown : result.unknowns) {
-    if (!unknown.is_shape || box.is_fixed(unknown)) continue;
+void warn_of_bounds(const FitResult& result, const Box& box, const Identifiability& identifiability,
+                    std::vector<std::string>& warnings) {
+  for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
+    const Unknown& unknown = result.unknowns[u];
+    if (unknown.fixed || identifiability.is_undetermined(u)) continue;
+    if (identifiability.is_absent(term_of(result, unknown))) continue;  // said of the whole term
     const double value = result.values[unknown];
     // A logarithmic solver comes close to a bound without standing on it.
-    const double near = 1e-6 * std::abs(value);
+    const double near = unknown.is_shape ? 1e-6 * std::abs(value) : 0;
     const bool at_lower = value - box.lower(unknown) <= near;
     const bool at_upper = box.upper(unknown) - value <= near;
     if (!at_lower && !at_upper) continue;
-    if (term_is_absent(result, result.model.shape()[unknown.index].term)) continue;
     warnings.push_back(fmt::format("{} ends at its {} bound {}: the data would have it {}",
                                    unknown.name, at_lower ? "lower" : "upper",
                                    at_lower ? box.lower(unknown) : box.upper(unknown),
                                    at_lower ? "smaller" : "larger"));
   }
+}
+
+void warn_of_empty_channels(const FitResult& result, const Identifiability& identifiability,
+                            std::vector<std::string>& warnings) {
+  for (std::size_t c = 0; c < result.channels.size(); ++c) {
+    bool seen = false;
+    for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
+      const Unknown& unknown = result.unknowns[u];
+      if (unknown.is_shape || unknown.channel != c) continue;
+      seen = seen || unknown.fixed || !identifiability.is_undetermined(u);
+    }
+    if (!seen) {
+      warnings.push_back(fmt::format("channel {} has too few values to determine anything of it",
+                                     result.channels[c]));
+    }
+  }
+}
+
+void warn_of_no_freedom(const FitResult& result, const Identifiability& identifiability,
+                        std::vector<std::string>& warnings) {
+  if (result.used_values > identifiability.rank()) return;
+  warnings.push_back(
+      fmt::format("{} values determine {} unknowns and nothing is left to tell how well: measure "
+                  "more samples",
+                  result.used_values, identifiability.rank()));
 }
 
 void warn_of_weak_shapes(const FitResult& result, std::vector<std::string>& warnings) {
@@ -124,17 +170,20 @@ void warn_of_weak_shapes(const FitResult& result, std::vector<std::string>& warn
 }
 
 /// rho_d and rho_s are shares of the incident light (Ward 1992): their sum must stay below 1.
-void warn_of_albedo(const FitResult& result, std::vector<std::string>& warnings) {
+void warn_of_albedo(const FitResult& result, const Identifiability& identifiability,
+                    std::vector<std::string>& warnings) {
   for (std::size_t c = 0; c < result.channels.size(); ++c) {
     double sum = 0;
+    bool determined = true;
     std::vector<std::string> names;
-    for (std::size_t k = 0; k < result.model.amplitudes().size(); ++k) {
-      const std::string& name = result.model.amplitudes()[k].name;
-      if (!name.starts_with("rho_")) continue;
-      names.push_back(name);
-      sum += result.values.amplitudes(Eigen::Index(k), Eigen::Index(c));
+    for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
+      const Unknown& unknown = result.unknowns[u];
+      if (unknown.is_shape || unknown.channel != c || !unknown.name.starts_with("rho_")) continue;
+      names.push_back(unknown.parameter);
+      sum += result.values[unknown];
+      determined = determined && !identifiability.is_undetermined(u);
     }
-    if (sum <= 1) continue;
+    if (sum <= 1 || !determined) continue;
     warnings.push_back(
         fmt::format("{} of channel {} is {:.3g}, over 1: more light would leave than arrives; is "
                     "the table's quantity declared right?",
@@ -160,11 +209,13 @@ std::vector<std::string> diagnose(const FitResult& result, const Box& box,
   if (!result.converged) {
     warnings.emplace_back("the solver stopped before it converged: the parameters may still move");
   }
-  warn_of_absent_terms(result, warnings);
+  warn_of_empty_channels(result, identifiability, warnings);
+  warn_of_no_freedom(result, identifiability, warnings);
+  warn_of_absent_terms(result, identifiability, warnings);
+  warn_of_insignificant_terms(result, identifiability, warnings);
   warn_of_undetermined(result, identifiability, warnings);
-  warn_of_albedo(result, warnings);
-  warn_of_amplitudes_at_zero(result, box, warnings);
-  warn_of_shapes_at_bounds(result, box, warnings);
+  warn_of_albedo(result, identifiability, warnings);
+  warn_of_bounds(result, box, identifiability, warnings);
   warn_of_weak_shapes(result, warnings);
   warn_of_misfit(result, warnings);
   return warnings;

@@ -16,9 +16,9 @@ namespace {
 constexpr std::array<std::string_view, 5> metric_names{"l2", "cosine-l2", "log", "cube-root",
                                                        "relative"};
 
-/// The median of a channel's magnitudes over the used samples, exactly and in constant memory: the
-/// bits of non-negative doubles are ordered like the numbers, so that 16 bits a pass narrow it
-/// down.
+/// The (lower) median of a channel's magnitudes that are not 0, over the used samples, exactly and
+/// in constant memory; 0 if there is none. A clamped instrument may read 0 in most places. The bits
+/// of non-negative doubles are ordered like the numbers, so that 16 bits a pass narrow it down.
 double median_magnitude(const std::vector<double>& channel, const table::SampleFilter& filter) {
   constexpr int digit_bits = 16;
   std::uint64_t prefix = 0;
@@ -29,7 +29,7 @@ double median_magnitude(const std::vector<double>& channel, const table::SampleF
     std::vector<std::uint64_t> histogram(std::size_t(1) << digit_bits);
     std::uint64_t total = 0;
     for (std::size_t i = 0; i < channel.size(); ++i) {
-      if (std::isnan(channel[i]) || !filter(i)) continue;
+      if (std::isnan(channel[i]) || channel[i] == 0 || !filter(i)) continue;
       const auto bits = std::bit_cast<std::uint64_t>(std::abs(channel[i]));
       if ((bits & prefix_mask) != prefix) continue;
       ++histogram[std::size_t(bits >> shift) & (histogram.size() - 1)];
@@ -92,8 +92,9 @@ ErrorList errors_of(const table::SampleTable& table, double max_theta_deg, const
 
   std::vector<double> floors(table.channels.size());
   table::parallel_for(floors.size(), passes.threads, [&](std::size_t c) {
-    floors[c] = std::max(0.01 * median_magnitude(table.values[c], samples.filter()),
-                         std::numeric_limits<double>::min());
+    const double median = median_magnitude(table.values[c], samples.filter());
+    // A channel that is 0 everywhere has no relative error.
+    floors[c] = median > 0 ? 0.01 * median : std::numeric_limits<double>::infinity();
   });
 
   struct State {

@@ -17,7 +17,7 @@ namespace gonio::fit {
 ///   cosine-l2  (f - model) cos_i                             in 1/sr
 ///   log        difference of ln(1 + max(0, f cos_i))         (Loew et al. 2012)
 ///   cube-root  difference of cbrt(max(0, f cos_i))
-///   relative   (f - model) / max(|f|, 1 % of the channel's median |f|)
+///   relative   (f - model) / max(|f|, 1 % of the channel's median |f| that is not 0)
 /// in this order. The weights are the table's own, 1 where it carries none.
 using ErrorList = std::vector<std::pair<std::string_view, double>>;
 

@@ -43,11 +43,10 @@ class PassCounter {
   PassOptions options_;
 };
 
-/// Throws unless every channel, and all together, have at least as many values as unknowns.
-void require_enough_values(const WeightedSamples& samples, const Box& box,
-                           std::span<const Unknown> unknowns) {
-  const auto free_count = std::size_t(std::count_if(
-      unknowns.begin(), unknowns.end(), [&](const Unknown& u) { return !box.is_fixed(u); }));
+/// Throws if there are fewer values than unknowns.
+void require_enough_values(const WeightedSamples& samples, std::span<const Unknown> unknowns) {
+  const auto free_count = std::size_t(
+      std::count_if(unknowns.begin(), unknowns.end(), [](const Unknown& u) { return !u.fixed; }));
   if (samples.used_values() < free_count) {
     throw table::FileError(
         fmt::format("{}: {} measured values in {} samples are left for {} unknowns; a fit needs "
@@ -55,6 +54,38 @@ void require_enough_values(const WeightedSamples& samples, const Box& box,
                     "--max-theta",
                     samples.table().provenance.path, samples.used_values(), samples.used_samples(),
                     free_count));
+  }
+}
+
+/// Throws if the values are so large or so small that their squares leave the range of double.
+void require_representable_squares(const table::SampleTable& table,
+                                   const table::SampleFilter& filter) {
+  double largest = 0;
+  for (const std::vector<double>& channel : table.values) {
+    for (std::size_t i = 0; i < table.size(); ++i) {
+      if (!std::isnan(channel[i]) && filter(i)) largest = std::max(largest, std::abs(channel[i]));
+    }
+  }
+  if (largest == 0 || (largest > 1e-100 && largest < 1e100)) return;
+  throw table::FileError(
+      fmt::format("{}: the largest magnitude of f_r is {:.3g} 1/sr, which no material has; values "
+                  "between 1e-100 and 1e100 can be fitted: check the table's unit and quantity",
+                  table.provenance.path, largest));
+}
+
+void check_options(const Options& options) {
+  if (options.covariance == Covariance::known_sigma && options.metric != Metric::chi2) {
+    throw std::invalid_argument(
+        "covariance known-sigma needs residuals in units of sigma: choose metric chi2, or the "
+        "residual or sandwich covariance");
+  }
+  if (!options.noise) return;
+  const Noise& noise = *options.noise;
+  if (!(std::isfinite(noise.relative) && std::isfinite(noise.absolute) && noise.relative >= 0 &&
+        noise.absolute >= 0 && noise.relative + noise.absolute > 0)) {
+    throw std::invalid_argument(
+        fmt::format("noise {},{}: two finite numbers are needed, not negative and not both 0",
+                    noise.relative, noise.absolute));
   }
 }
 
@@ -78,23 +109,26 @@ bool nearly_equal(const ParameterValues& a, const ParameterValues& b) {
 }
 
 /// The metric's own root mean square; in units of sigma for chi2.
-double metric_error_of(const FitResult& result, std::size_t used_values) {
+double metric_error_of(const FitResult& result) {
   for (const auto& [metric, error] : result.errors) {
     if (metric == name(result.metric)) return error;
   }
-  return std::sqrt(2 * result.cost / double(used_values));
+  return std::sqrt(2 * result.cost / double(result.used_values));
 }
 
 }  // namespace
 
 FitResult fit(const brdf::Model& model, const table::SampleTable& table, const Options& options) {
   const BatchModel batch(model);
-  const std::vector<Unknown> unknowns = unknowns_of(model, table.channels);
+  check_options(options);
+  std::vector<Unknown> unknowns = unknowns_of(model, table.channels);
   const Box box = box_of(model, table.channels, options);
+  for (Unknown& unknown : unknowns) unknown.fixed = box.is_fixed(unknown);
   PassCounter passes(options.threads, options.progress);
 
   std::optional<WeightedSamples> samples(std::in_place, table, batch, options);
-  require_enough_values(*samples, box, unknowns);
+  require_enough_values(*samples, unknowns);
+  require_representable_squares(table, samples->filter());
   const table::SampleTable subset =
       representative_subset(table, samples->filter(), samples->used_samples(), subset_samples);
   const std::vector<Start> starts = search_starts(subset, batch, box, options);
@@ -129,11 +163,12 @@ FitResult fit(const brdf::Model& model, const table::SampleTable& table, const O
       .errors = errors_of(table, options.max_theta_deg, batch, solution.values, passes.options()),
       .samples = table.size(),
       .used = samples->used_samples(),
+      .used_values = samples->used_values(),
       .converged = solution.converged,
       .iterations = solution.iterations,
       .passes = 0,
       .warnings = {}};
-  result.metric_error = metric_error_of(result, samples->used_values());
+  result.metric_error = metric_error_of(result);
   result.passes = passes.count();
   result.warnings = diagnose(result, box, identifiability);
   return result;

@@ -36,6 +36,7 @@ struct FitResult {
   ErrorList errors;
   std::size_t samples;  // in the table
   std::size_t used;
+  std::size_t used_values;  // over all channels
   bool converged;
   int iterations;  // of the solver, on the subset of the search and over the whole table
   int passes;      // over the whole table, all in all

@@ -25,8 +25,8 @@ Metric metric_from_name(std::string_view name);
 ///   sandwich     (J'J)^-1 (sum of scores' outer products) (J'J)^-1 (White 1980): valid for
 ///                unequal variance and for a model that does not fit within the noise; the
 ///                channels of one sample may err together
-///   automatic    known_sigma for chi2, unless the residuals are far larger than sigma;
-///                sandwich else
+///   automatic    known_sigma for chi2, unless the residuals are far larger than sigma or the table
+///                carries weights besides; sandwich else
 enum class Covariance { automatic, known_sigma, residual, sandwich };
 std::string_view name(Covariance covariance);
 /// Throws std::invalid_argument that lists the kinds.

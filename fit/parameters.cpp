@@ -62,14 +62,21 @@ std::vector<Unknown> unknowns_of(const brdf::Model& model, std::span<const std::
   for (const brdf::OrderedParameter& ordered : brdf::ordered_parameters(model)) {
     const std::string& name = ordered.parameter->name;
     if (!ordered.per_channel) {
-      unknowns.push_back({name, name, true, ordered.index, 0});
+      unknowns.push_back({name, name, true, ordered.index, 0, false});
       continue;
     }
     for (std::size_t c = 0; c < channels.size(); ++c) {
-      unknowns.push_back({name + "." + channels[c], name, false, ordered.index, c});
+      unknowns.push_back({name + "." + channels[c], name, false, ordered.index, c, false});
     }
   }
   return unknowns;
+}
+
+bool has_parameter(const brdf::Model& model, std::span<const std::string> channels,
+                   std::string_view name) {
+  const std::vector<Unknown> unknowns = unknowns_of(model, channels);
+  return std::any_of(unknowns.begin(), unknowns.end(),
+                     [&](const Unknown& u) { return u.name == name || u.parameter == name; });
 }
 
 double ParameterValues::operator[](const Unknown& unknown) const {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "brdf/model.h"
@@ -19,9 +20,14 @@ struct Unknown {
   bool is_shape;
   std::size_t index;    // among model.shape() or model.amplitudes()
   std::size_t channel;  // of an amplitude
+  bool fixed = false;   // set by fit()
 };
 
 std::vector<Unknown> unknowns_of(const brdf::Model& model, std::span<const std::string> channels);
+
+/// True if `name` is one of the model's parameters, or one channel's part of it.
+bool has_parameter(const brdf::Model& model, std::span<const std::string> channels,
+                   std::string_view name);
 
 /// Values for all the unknowns of a model.
 struct ParameterValues {

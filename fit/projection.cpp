@@ -146,7 +146,7 @@ Projected project(const Compressed& compressed, const BatchModel& model, const B
       if (beta[k] <= lower[k] || beta[k] >= upper[k] || norm == 0) continue;
       moving.col(moving_count++) = basis.col(k) / norm;
     }
-    if (moving_count > 0) {
+    if (moving_count > 0 && jacobian.cols() > 0) {
       const Eigen::MatrixXd free = moving.leftCols(moving_count);
       Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
       qr.setThreshold(rank_threshold);

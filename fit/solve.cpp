@@ -30,10 +30,12 @@ class Variable {
   brdf::Scale scale_;
 };
 
-std::vector<Variable> variables_of(const brdf::Model& model, const Box& box) {
+/// The shape parameters that may move: not fixed, and not held at a bound.
+std::vector<Variable> variables_of(const brdf::Model& model, const Box& box,
+                                   const std::vector<bool>& held) {
   std::vector<Variable> variables;
   for (std::size_t j = 0; j < model.shape().size(); ++j) {
-    if (box.shape_lower[j] == box.shape_upper[j]) continue;
+    if (box.shape_lower[j] == box.shape_upper[j] || held[j]) continue;
     variables.emplace_back(j, model.shape()[j].descriptor.scale);
   }
   return variables;
@@ -118,42 +120,82 @@ ceres::Solver::Options solver_options() {
   return options;
 }
 
+/// Lets Ceres move the shape's variables from where `shape` stands, within the box.
+struct Moved {
+  bool converged = true;
+  int iterations = 0;
+};
+
+Moved move_variables(const std::vector<Variable>& variables, const Box& box,
+                     LastEvaluation& evaluation, std::vector<double>& shape) {
+  evaluation.move_to(shape);
+  if (variables.empty()) return {};
+  const double norm = std::hypot(evaluation.compressed().projected.norm(),
+                                 evaluation.compressed().unreachable.norm());
+  std::vector<double> x;
+  for (const Variable& v : variables) x.push_back(v.from_shape(shape[v.index()]));
+  ceres::Problem problem;
+  problem.AddResidualBlock(
+      new ProjectedCost(evaluation, variables, shape, int(evaluation.projected().residuals.size()),
+                        norm > 0 ? 1 / norm : 1),
+      nullptr, x.data());
+  for (std::size_t v = 0; v < variables.size(); ++v) {
+    const std::size_t j = variables[v].index();
+    problem.SetParameterLowerBound(x.data(), int(v), variables[v].from_shape(box.shape_lower[j]));
+    problem.SetParameterUpperBound(x.data(), int(v), variables[v].from_shape(box.shape_upper[j]));
+  }
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver_options(), &problem, &summary);
+  for (std::size_t v = 0; v < variables.size(); ++v) {
+    const std::size_t j = variables[v].index();
+    // exp(log(bound)) may miss the bound by a rounding.
+    shape[j] = std::clamp(variables[v].to_shape(x[v]), box.shape_lower[j], box.shape_upper[j]);
+  }
+  evaluation.move_to(shape);
+  return {summary.termination_type == ceres::CONVERGENCE,
+          std::max(int(summary.iterations.size()) - 1, 0)};
+}
+
+/// Holds every parameter that stands at a bound and whose gradient points out of the box, and lets
+/// go of those whose gradient points inward. Returns whether anything changed.
+bool update_held(const Box& box, const Projected& projected, std::vector<double>& shape,
+                 std::vector<bool>& held) {
+  const Eigen::VectorXd gradient = projected.jacobian.transpose() * projected.residuals;
+  bool changed = false;
+  for (std::size_t j = 0; j < held.size(); ++j) {
+    if (box.shape_lower[j] == box.shape_upper[j]) continue;
+    const double near = 1e-9 * std::abs(shape[j]);
+    const bool at_lower = shape[j] - box.shape_lower[j] <= near;
+    const bool at_upper = box.shape_upper[j] - shape[j] <= near;
+    const double slope = gradient[Eigen::Index(j)];
+    const bool hold = (at_lower && slope > 0) || (at_upper && slope < 0);
+    if (hold) shape[j] = at_lower ? box.shape_lower[j] : box.shape_upper[j];
+    changed = changed || hold != held[j];
+    held[j] = hold;
+  }
+  return changed;
+}
+
 }  // namespace
 
 Solution solve(const WeightedSamples& samples, const BatchModel& model, const Box& box,
                std::vector<double> shape, const PassOptions& options) {
-  const std::vector<Variable> variables = variables_of(model.model(), box);
   LastEvaluation evaluation(samples, model, box, options);
-  evaluation.move_to(shape);
-
   Solution solution;
-  solution.converged = true;
-  if (!variables.empty()) {
-    const double norm = std::hypot(evaluation.compressed().projected.norm(),
-                                   evaluation.compressed().unreachable.norm());
-    std::vector<double> x;
-    for (const Variable& v : variables) x.push_back(v.from_shape(shape[v.index()]));
-    ceres::Problem problem;
-    problem.AddResidualBlock(
-        new ProjectedCost(evaluation, variables, shape,
-                          int(evaluation.projected().residuals.size()), norm > 0 ? 1 / norm : 1),
-        nullptr, x.data());
-    for (std::size_t v = 0; v < variables.size(); ++v) {
-      const std::size_t j = variables[v].index();
-      problem.SetParameterLowerBound(x.data(), int(v), variables[v].from_shape(box.shape_lower[j]));
-      problem.SetParameterUpperBound(x.data(), int(v), variables[v].from_shape(box.shape_upper[j]));
-    }
-    ceres::Solver::Summary summary;
-    ceres::Solve(solver_options(), &problem, &summary);
-    solution.converged = summary.termination_type == ceres::CONVERGENCE;
-    solution.iterations = int(summary.iterations.size()) - 1;
-    for (std::size_t v = 0; v < variables.size(); ++v) {
-      const std::size_t j = variables[v].index();
-      // exp(log(bound)) may miss the bound by a rounding.
-      shape[j] = std::clamp(variables[v].to_shape(x[v]), box.shape_lower[j], box.shape_upper[j]);
-    }
-    evaluation.move_to(shape);
+  // Ceres cuts a step off at the box and may then stop though the other parameters could still
+  // gain: those at a bound are held, and the rest is solved again, until nothing changes.
+  std::vector<bool> held(shape.size(), false);
+  const std::size_t most_rounds = 2 * shape.size() + 2;
+  bool settled = false;
+  for (std::size_t round = 0; round < most_rounds && !settled; ++round) {
+    const Moved moved =
+        move_variables(variables_of(model.model(), box, held), box, evaluation, shape);
+    solution.converged = moved.converged;
+    solution.iterations += moved.iterations;
+    settled = !update_held(box, evaluation.projected(), shape, held);
   }
+  evaluation.move_to(shape);
+  solution.converged = solution.converged && settled;
   solution.values = {std::move(shape), evaluation.projected().amplitudes};
   solution.cost = evaluation.projected().cost();
   solution.compressed = evaluation.compressed();

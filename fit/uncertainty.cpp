@@ -16,9 +16,34 @@ constexpr double singular_threshold = 1e-7;
 /// An unknown takes part in an undetermined combination if its share of it is above this.
 constexpr double participation = 0.05;
 
+/// An amplitude below this share of what the data could show is rounding.
+constexpr double negligible_share = 1e-10;
+
+/// True if the amplitude contributes nothing to a channel but rounding.
+bool is_negligible(const Compressed& compressed, double amplitude, Eigen::Index basis,
+                   Eigen::Index channel) {
+  const double data =
+      std::hypot(compressed.projected.col(channel).norm(), compressed.unreachable[channel]);
+  return std::abs(amplitude) * compressed.factor(channel).col(basis).norm() <=
+         negligible_share * data;
+}
+
+/// The amplitudes with the negligible ones set to 0.
+Eigen::MatrixXd significant_amplitudes(const Compressed& compressed,
+                                       const Eigen::MatrixXd& amplitudes) {
+  Eigen::MatrixXd significant = amplitudes;
+  for (Eigen::Index c = 0; c < amplitudes.cols(); ++c) {
+    for (Eigen::Index k = 0; k < amplitudes.rows(); ++k) {
+      if (is_negligible(compressed, amplitudes(k, c), k, c)) significant(k, c) = 0;
+    }
+  }
+  return significant;
+}
+
 /// The Jacobian of the compressed rows by every unknown, [channel * rows + row, unknown].
 Eigen::MatrixXd full_jacobian(const Compressed& compressed, const BatchModel& model,
-                              const ParameterValues& values, std::span<const Unknown> unknowns) {
+                              const Eigen::MatrixXd& amplitudes,
+                              std::span<const Unknown> unknowns) {
   const Eigen::Index rows = compressed.projected.rows();
   const Eigen::Index channels = compressed.projected.cols();
   const auto amplitude_count = Eigen::Index(model.amplitude_count());
@@ -36,7 +61,7 @@ Eigen::MatrixXd full_jacobian(const Compressed& compressed, const BatchModel& mo
       if (derivative.shape != unknown.index) continue;
       for (Eigen::Index c = 0; c < channels; ++c) {
         column.segment(c * rows, rows) +=
-            values.amplitudes(Eigen::Index(derivative.amplitude), c) *
+            amplitudes(Eigen::Index(derivative.amplitude), c) *
             compressed.factor(c).col(amplitude_count + Eigen::Index(d));
       }
     }
@@ -106,6 +131,17 @@ Eigen::MatrixXd score_products(const WeightedSamples& samples, const BatchModel&
   return total.selfadjointView<Eigen::Lower>();
 }
 
+/// The 97.5 % quantile that an interval takes.
+double quantile_975(Covariance kind, double freedom, const WeightedSamples& samples, double rank) {
+  if (kind == Covariance::known_sigma) return 1.959963984540054;  // the normal distribution's
+  // The channels of a sample may err together: for the sandwich only samples count, and of the
+  // unknowns those that one channel sees.
+  const double channels = double(samples.channel_count());
+  const double sample_freedom = double(samples.used_samples()) - std::ceil(rank / channels);
+  const double degrees = kind == Covariance::sandwich ? std::min(freedom, sample_freedom) : freedom;
+  return boost::math::quantile(boost::math::students_t(std::max(degrees, 1.0)), 0.975);
+}
+
 Covariance kind_for(const Options& options, const WeightedSamples& samples, bool misfit) {
   if (options.covariance != Covariance::automatic) return options.covariance;
   // A weight beside sigma says that a sample counts more than its noise tells.
@@ -119,7 +155,14 @@ Covariance kind_for(const Options& options, const WeightedSamples& samples, bool
 Identifiability::Identifiability(const Compressed& compressed, const BatchModel& model,
                                  const Box& box, const ParameterValues& values,
                                  std::span<const Unknown> unknowns) {
-  const Eigen::MatrixXd jacobian = full_jacobian(compressed, model, values, unknowns);
+  const Eigen::MatrixXd amplitudes = significant_amplitudes(compressed, values.amplitudes);
+  const Eigen::MatrixXd jacobian = full_jacobian(compressed, model, amplitudes, unknowns);
+  absent_terms_.assign(model.model().terms().size(), true);
+  for (std::size_t k = 0; k < model.amplitude_count(); ++k) {
+    if ((amplitudes.row(Eigen::Index(k)).array() != 0).any()) {
+      absent_terms_[model.model().amplitudes()[k].term] = false;
+    }
+  }
   inverse_ = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
   for (std::size_t u = 0; u < unknowns.size(); ++u) {
     if (!box.is_fixed(unknowns[u])) free_.push_back(u);
@@ -173,7 +216,9 @@ Uncertainty uncertainty_of(const Solution& solution, const Identifiability& iden
                            const WeightedSamples& samples, const BatchModel& model, const Box& box,
                            std::span<const Unknown> unknowns, const Options& options,
                            const PassOptions& passes) {
-  const double freedom = double(samples.used_values()) - double(identifiability.free_count());
+  const double rank = double(identifiability.rank());
+  const double values = double(samples.used_values());
+  const double freedom = values - rank;
   const double variance = freedom > 0 ? 2 * solution.cost / freedom : 0;
 
   Uncertainty result;
@@ -188,8 +233,10 @@ Uncertainty uncertainty_of(const Solution& solution, const Identifiability& iden
     covariance *= variance;
   } else if (result.kind == Covariance::sandwich) {
     const Eigen::MatrixXd meat = score_products(samples, model, solution.values, unknowns, passes);
-    const double values = double(samples.used_values());
-    const double small_sample = freedom > 0 ? values / freedom : 1;
+    // The usual small-sample factor of a covariance clustered by sample (Cameron & Miller 2015).
+    const double clusters = double(samples.used_samples());
+    const double small_sample =
+        freedom > 0 && clusters > 1 ? clusters / (clusters - 1) * (values - 1) / freedom : 1;
     covariance = small_sample * covariance * meat * covariance;
   }
 
@@ -197,11 +244,8 @@ Uncertainty uncertainty_of(const Solution& solution, const Identifiability& iden
   result.stddev.resize(count);
   result.interval95.resize(count);
   result.correlation.assign(count, std::vector<std::optional<double>>(count));
-  const bool estimable = freedom > 0 || result.kind == Covariance::known_sigma;
-  if (!estimable) return result;
-  const double quantile = result.kind == Covariance::known_sigma
-                              ? 1.959963984540054  // of the normal distribution at 97.5 %
-                              : boost::math::quantile(boost::math::students_t(freedom), 0.975);
+  if (freedom <= 0 && result.kind != Covariance::known_sigma) return result;
+  const double quantile = quantile_975(result.kind, freedom, samples, rank);
   for (std::size_t u = 0; u < count; ++u) {
     if (box.is_fixed(unknowns[u]) || identifiability.is_undetermined(u)) continue;
     const auto i = Eigen::Index(u);

@@ -28,8 +28,11 @@ class Identifiability {
   /// unknowns.
   const std::vector<std::vector<std::size_t>>& undetermined() const { return undetermined_; }
   bool is_undetermined(std::size_t unknown) const;
-  /// Unknowns that are not fixed.
-  std::size_t free_count() const { return free_.size(); }
+  /// The unknowns that the data determines: those that are not fixed, less the undetermined
+  /// combinations.
+  std::size_t rank() const { return free_.size() - undetermined_.size(); }
+  /// True if the term's amplitudes are 0 to rounding in every channel: its shape means nothing.
+  bool is_absent(std::size_t term) const { return absent_terms_[term]; }
   /// (J'J)^+ over all the unknowns, without the undetermined combinations; 0 in the rows and
   /// columns of fixed ones.
   const Eigen::MatrixXd& inverse() const { return inverse_; }
@@ -37,6 +40,7 @@ class Identifiability {
  private:
   std::vector<std::size_t> free_;
   std::vector<std::vector<std::size_t>> undetermined_;
+  std::vector<bool> absent_terms_;
   Eigen::MatrixXd inverse_;
 };
 
@@ -45,7 +49,9 @@ struct Uncertainty {
   Covariance kind = Covariance::residual;
   /// Per unknown; none where it is fixed or undetermined.
   std::vector<std::optional<double>> stddev;
-  /// value -+ Student's t times stddev, cut at the bounds.
+  /// value -+ quantile times stddev, cut at the bounds. The quantile is the normal distribution's
+  /// for known sigma and Student's t else, with the degrees of freedom of the residuals, or of the
+  /// samples for the sandwich. Unknowns at a bound count as free: the bound is no measurement.
   std::vector<std::optional<std::pair<double, double>>> interval95;
   /// [unknown][unknown]; none where either has no stddev.
   std::vector<std::vector<std::optional<double>>> correlation;

@@ -49,8 +49,8 @@ void WeightedSamples::count_used() {
       reasons += fmt::format(", {} masked as {}", masked[r], name(table::MaskReason(r)));
     }
     throw table::FileError(fmt::format(
-        "{}: no sample left to fit: of {} samples{}, {} lie beyond the largest polar angle; check "
-        "the table with 'gonio info', or raise --max-theta",
+        "{}: no sample left to fit: of {} samples{}, {} lie beyond the largest polar angle or have "
+        "the weight 0; check the table with 'gonio info', or raise --max-theta",
         table_->provenance.path, table_->size(), reasons, masked[0]));
   }
   for (const std::vector<double>& channel : table_->values) {

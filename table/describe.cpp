@@ -117,12 +117,9 @@ IncidenceSummary summarise_incidence(const SampleTable& table, double theta_deg,
 
   const DiscAverage average(points);
   for (const std::vector<double>& channel : table.values) {
-    summary.albedo.push_back(std::numbers::pi * average.mean(channel, samples));
-  }
-  // A channel of nothing but holes here has no albedo, and neither has the row then.
-  if (std::any_of(summary.albedo.begin(), summary.albedo.end(),
-                  [](double albedo) { return std::isnan(albedo); })) {
-    summary.albedo.clear();
+    const double mean = average.mean(channel, samples);
+    summary.albedo.push_back(std::isnan(mean) ? std::nullopt
+                                              : std::optional(std::numbers::pi * mean));
   }
   return summary;
 }
@@ -169,8 +166,9 @@ void warn_of_implausible_albedo(Description& d) {
   std::optional<Extreme> highest;
   for (const IncidenceSummary& incidence : d.incidences) {
     for (std::size_t c = 0; c < incidence.albedo.size(); ++c) {
-      if (!highest || incidence.albedo[c] > highest->albedo) {
-        highest = Extreme{incidence.albedo[c], incidence.theta_deg, c};
+      const std::optional<double> albedo = incidence.albedo[c];
+      if (albedo && (!highest || *albedo > highest->albedo)) {
+        highest = Extreme{*albedo, incidence.theta_deg, c};
       }
     }
   }

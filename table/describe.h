@@ -39,8 +39,8 @@ struct IncidenceSummary {
   double coverage = 0;       // the share of them that holds a sample
   // The directional albedo per channel: pi times the mean of f_r over the projected disc, where a
   // direction that was not measured counts like the nearest one that was. An estimate; empty if
-  // coverage is below 1/4.
-  std::vector<double> albedo{};
+  // coverage is below 1/4, and none for a channel of nothing but holes here.
+  std::vector<std::optional<double>> albedo{};
 };
 
 /// Which slopes of the half vector the table holds, hx/hz along the tangent and hy/hz along the

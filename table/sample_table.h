@@ -72,14 +72,14 @@ struct SampleTable {
   bool has_weight() const { return !weight.empty(); }
 };
 
-/// True where sample `i` is not masked and both polar angles are at most `max_theta_deg`
-/// (inclusive, + 1e-6 deg).
+/// True where sample `i` is not masked, has no weight of 0, and both polar angles are at most
+/// `max_theta_deg` (inclusive, + 1e-6 deg).
 class SampleFilter {
  public:
   SampleFilter(const SampleTable& table, double max_theta_deg);
   bool operator()(std::size_t i) const {
     return table_->mask[i] == MaskReason::none && table_->wi.z[i] >= min_cos_ &&
-           table_->wo.z[i] >= min_cos_;
+           table_->wo.z[i] >= min_cos_ && (table_->weight.empty() || table_->weight[i] > 0);
   }
 
  private:

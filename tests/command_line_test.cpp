@@ -335,6 +335,46 @@ TEST(CommandLine, FitGivesTheSameMaterialAsFileAndOnStdout) {
   EXPECT_FALSE(file.contains("timing"));
 }
 
+TEST(CommandLine, FitRefusesToOverwriteItsTableOrToWriteBothOutputsToOneFile) {
+  const TemporaryFolder folder;
+  const std::string table = folder.write("table.csv", good_table());
+  std::filesystem::create_symlink(table, folder / "link.json");
+  for (const std::vector<std::string>& outputs :
+       {std::vector<std::string>{"-o", table}, std::vector<std::string>{"--residuals", table},
+        std::vector<std::string>{"-o", folder / "link.json"},
+        std::vector<std::string>{"-o", folder / "x", "--residuals", folder / "x"}}) {
+    std::vector<std::string> arguments{"fit", table, "-m", "ward-aniso"};
+    arguments.insert(arguments.end(), outputs.begin(), outputs.end());
+    EXPECT_EQ(run_gonio(arguments).exit_status, 2) << outputs.back();
+    EXPECT_EQ(content_of(table), good_table());
+    EXPECT_FALSE(std::filesystem::exists(folder / "x"));
+  }
+}
+
+TEST(CommandLine, FitTakesOneValueForEachFixAndTheTableAfterIt) {
+  const TemporaryFolder folder;
+  const std::string table = folder.write("table.csv", good_table());
+  const CommandResult result = run_gonio({"fit", "--fix", "alpha_x=0.05", "--fix", "alpha_y=0.16",
+                                          table, "-m", "ward-aniso", "--json"});
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_EQ(json::parse(result.out).at("parameters").at("alpha_x").at("value"), 0.05);
+}
+
+TEST(CommandLine, FitAppliesASettingToTheModelsThatHaveTheParameter) {
+  const TemporaryFolder folder;
+  const std::string table = folder.write("table.csv", good_table());
+  const CommandResult all = run_gonio({"fit", table, "--bounds", "alpha=0.01:0.5", "--json"});
+  EXPECT_EQ(all.exit_status, 0) << all.err;
+  EXPECT_TRUE(json::parse(all.out).contains("fits"));
+  EXPECT_EQ(run_gonio({"fit", table, "--fix", "beta=1"}).exit_status, 2);
+}
+
+TEST(CommandLine, NamesACommandThatThereIsNot) {
+  const CommandResult result = run_gonio({"foo"});
+  EXPECT_EQ(result.exit_status, 2);
+  EXPECT_THAT(result.err, testing::HasSubstr("foo"));
+}
+
 // Killed runs ---------------------------------------------------------------------------------
 
 /// A recipe whose table takes long enough to write that it can be killed half-way.

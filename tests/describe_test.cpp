@@ -85,7 +85,7 @@ TEST(Describe, LambertsAlbedoIsItsRhoDAtEveryIncidence) {
   for (const IncidenceSummary& incidence : d.incidences) {
     EXPECT_EQ(incidence.coverage, 1);
     ASSERT_EQ(incidence.albedo.size(), 1U);
-    EXPECT_NEAR(incidence.albedo[0], 0.5, 1e-12);
+    EXPECT_NEAR(incidence.albedo[0].value(), 0.5, 1e-12);
   }
   EXPECT_EQ(d.incidences[1].theta_deg, 30);
   EXPECT_TRUE(d.warnings.empty());
@@ -97,7 +97,7 @@ TEST(Describe, AlbedoOfALobeAgreesWithItsIntegralOverTheHemisphere) {
   for (const IncidenceSummary& incidence : d.incidences) {
     const double integral = integrated_albedo(f, direction_from_degrees(incidence.theta_deg, 0));
     // Cells of 1.6 deg under a lobe of 10 deg: an estimate to a few per cent.
-    EXPECT_NEAR(incidence.albedo.at(0), integral, 0.03 * integral) << incidence.theta_deg;
+    EXPECT_NEAR(incidence.albedo.at(0).value(), integral, 0.03 * integral) << incidence.theta_deg;
   }
 }
 
@@ -112,7 +112,7 @@ TEST(Describe, DenseSamplesInTheLobeDoNotOutweighTheRestOfTheHemisphere) {
     }
   }
   const double integral = integrated_albedo(f, wi);
-  EXPECT_NEAR(describe(table).incidences.at(0).albedo.at(0), integral, 0.03 * integral);
+  EXPECT_NEAR(describe(table).incidences.at(0).albedo.at(0).value(), integral, 0.03 * integral);
 }
 
 TEST(Describe, GapsInTheCoverageCountLikeTheirSurroundings) {
@@ -136,7 +136,7 @@ TEST(Describe, GapsInTheCoverageCountLikeTheirSurroundings) {
   EXPECT_LT(incidence.coverage, 0.6);
   const double integral = integrated_albedo(f, wi);
   // Half of the hemisphere rests on a few samples of the diffuse term: a tenth is good.
-  EXPECT_NEAR(incidence.albedo.at(0), integral, 0.1 * integral);
+  EXPECT_NEAR(incidence.albedo.at(0).value(), integral, 0.1 * integral);
 }
 
 TEST(Describe, CoverageIsTheShareOfTheProjectedSolidAngle) {
@@ -285,7 +285,7 @@ TEST(Describe, DirectionsThatAllDifferAreBinnedByFifteenDegrees) {
   for (const IncidenceSummary& bin : d.incidences) {
     samples += bin.samples;
     EXPECT_GT(bin.coverage, 0.9);
-    EXPECT_NEAR(bin.albedo.at(2), 0.25, 1e-12);
+    EXPECT_NEAR(bin.albedo.at(2).value(), 0.25, 1e-12);
   }
   EXPECT_EQ(samples, 20000U);
   EXPECT_FALSE(d.reciprocity.has_value());

@@ -9,24 +9,35 @@
 namespace gonio::app {
 namespace {
 
-/// A value with as many decimals as its standard deviation makes sense of (two digits of it), and
-/// six digits where it has none.
-int decimals_for(double value, const std::optional<double>& stddev) {
+/// Numbers of one row, with as many decimals as the standard deviation makes sense of (two digits
+/// of it), at least four; in scientific notation where that would take too many.
+struct RowFormat {
+  int decimals;
+  bool scientific;
+
+  std::string operator()(double value) const {
+    return scientific ? fmt::format("{:.6g}", value) : fmt::format("{:.{}f}", value, decimals);
+  }
+};
+
+RowFormat format_for(double value, const std::optional<double>& stddev) {
   const double scale = stddev && *stddev > 0 ? *stddev / 10 : std::abs(value) * 1e-5;
-  if (!(scale > 0)) return 4;
-  return std::clamp(int(std::ceil(-std::log10(scale))), 0, 12);
+  if (!(scale > 0)) return {4, false};
+  const double decimals = std::max(std::ceil(-std::log10(scale)), 4.0);
+  return {int(std::min(decimals, 12.0)), decimals > 12 || std::abs(value) >= 1e7};
 }
 
 std::string row_of(const fit::FitResult& result, std::size_t u) {
   const fit::Unknown& unknown = result.unknowns[u];
   const double value = result.values[unknown];
   const std::optional<double>& stddev = result.uncertainty.stddev[u];
-  const int decimals = std::max(decimals_for(value, stddev), 4);
-  std::string row = fmt::format("  {:<14} {:>14.{}f}", unknown.name, value, decimals);
-  if (!stddev) return row + fmt::format(" {:>14}   {}\n", "-", "not determined or fixed");
+  const RowFormat text = format_for(value, stddev);
+  const std::string row = fmt::format("  {:<14} {:>14}", unknown.name, text(value));
+  if (!stddev) {
+    return row + fmt::format(" {:>14}   {}\n", "-", unknown.fixed ? "fixed" : "not determined");
+  }
   const auto& [low, high] = *result.uncertainty.interval95[u];
-  return row + fmt::format(" {:>14.{}f}   {:.{}f} .. {:.{}f}\n", *stddev, decimals, low, decimals,
-                           high, decimals);
+  return row + fmt::format(" {:>14}   {} .. {}\n", text(*stddev), text(low), text(high));
 }
 
 std::string_view describe(fit::Covariance kind) {
@@ -81,11 +92,12 @@ std::string report_ranking(const std::vector<fit::FitResult>& results) {
       fmt::format("\n  {:<32} {:>10} {:>18} {:>10}\n", "model, best first", "parameters",
                   fmt::format("error in {}", metric_unit(results.front().metric)), "to best");
   for (const fit::FitResult& result : results) {
-    text += fmt::format(
-        "  {:<32} {:>10} {:>18.6g} {:>9.3f}x{}\n", result.model.name(), result.unknowns.size(),
-        result.metric_error,
-        results.front().metric_error > 0 ? result.metric_error / results.front().metric_error : 1.0,
-        result.converged ? "" : "  not converged");
+    const double least = results.front().metric_error;
+    const std::string ratio =
+        least > 0 ? fmt::format("{:.4g} x", result.metric_error / least) : std::string("-");
+    text += fmt::format("  {:<32} {:>10} {:>18.6g} {:>10}{}\n", result.model.name(),
+                        result.unknowns.size(), result.metric_error, ratio,
+                        result.converged ? "" : "  not converged");
   }
   return text;
 }

@@ -79,7 +79,7 @@ std::string models_text(const Description& d) {
   if (d.half_vectors.both)
     return "isotropic and anisotropic models: half vectors lean along x and y";
   if (d.half_vectors.along_x + d.half_vectors.along_y == 0) {
-    return "diffuse models only: no half vector leans away from the normal";
+    return "diffuse models only: hardly any half vector leans away from the normal";
   }
   return fmt::format(
       "isotropic models only: half vectors lean along {}, so that alpha_x and alpha_y "
@@ -127,12 +127,18 @@ void add_channels(std::string& text, const Description& d) {
 std::string albedo_text(const IncidenceSummary& incidence, std::size_t channels) {
   if (incidence.albedo.empty()) return "too little covered";
   if (channels > most_albedo_columns) {
-    const auto [lowest, highest] =
-        std::minmax_element(incidence.albedo.begin(), incidence.albedo.end());
+    std::vector<double> known;
+    for (const std::optional<double>& albedo : incidence.albedo) {
+      if (albedo) known.push_back(*albedo);
+    }
+    if (known.empty()) return "-";
+    const auto [lowest, highest] = std::minmax_element(known.begin(), known.end());
     return fmt::format("{:#.3g} .. {:#.3g}", *lowest, *highest);
   }
   std::string text;
-  for (const double albedo : incidence.albedo) text += fmt::format("{:<#9.3g}", albedo);
+  for (const std::optional<double>& albedo : incidence.albedo) {
+    text += albedo ? fmt::format("{:<#9.3g}", *albedo) : fmt::format("{:<9}", "-");
+  }
   text.erase(text.find_last_not_of(' ') + 1);
   return text;
 }
@@ -164,6 +170,15 @@ void add_incidences(std::string& text, const Description& d) {
   text +=
       "covered: share of the exitant hemisphere's projected solid angle that holds samples.\n"
       "albedo: an estimate; a direction that was not measured counts like the nearest that was.\n";
+}
+
+/// Null for a channel without an albedo.
+nlohmann::ordered_json albedo_json(const std::vector<std::optional<double>>& albedo) {
+  auto json = nlohmann::ordered_json::array();
+  for (const std::optional<double>& value : albedo) {
+    json.push_back(value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json());
+  }
+  return json;
 }
 
 nlohmann::ordered_json range_json(const table::Range& range) {
@@ -227,7 +242,7 @@ nlohmann::ordered_json info_json(const SampleTable& table, const Description& d)
                           {"azimuths", incidence.azimuths},
                           {"coverage", incidence.coverage},
                           {"cells", incidence.cells},
-                          {"albedo", incidence.albedo}});
+                          {"albedo", albedo_json(incidence.albedo)}});
   }
   auto& reciprocity = json["reciprocity"];
   if (d.reciprocity) {

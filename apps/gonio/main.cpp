@@ -1,6 +1,7 @@
 // gonio: from measured reflectance to material parameters with error bars.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -70,6 +71,14 @@ int run(int argc, char** argv) {
   add_eval_command(app, invocation);
   add_models_command(app, invocation);
   add_synth_command(app, invocation);
+  const std::vector<CLI::App*> commands = app.get_subcommands([](CLI::App*) { return true; });
+  if (argc > 1 && argv[1][0] != '-' &&
+      std::none_of(commands.begin(), commands.end(),
+                   [&](const CLI::App* command) { return command->get_name() == argv[1]; })) {
+    print_note(
+        fmt::format("gonio: there is no command '{}' (gonio --help says what there is)", argv[1]));
+    return 2;
+  }
   try {
     app.parse(argc, argv);
     if (std::fflush(stdout) != 0) fail_to_print();

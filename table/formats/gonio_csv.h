@@ -26,8 +26,8 @@ struct ExtraColumn {
 
 /// Writes `table` as a gonio-table of quantity brdf through `write`, in pieces. Angles are
 /// the table's own text where it was kept, else degrees that read back to the same direction to
-/// rounding. Holes and masked holes are empty fields; so is a NaN of an extra column. Numbers
-/// have the fewest digits that read back to the same bits. The extra columns follow the
+/// rounding. Holes are empty fields, and so is what was extrapolated and a NaN of an extra column.
+/// Numbers have the fewest digits that read back to the same bits. The extra columns follow the
 /// channels: a reader of the result takes them for channels.
 void write_gonio_csv(const SampleTable& table, std::span<const ExtraColumn> extra_columns,
                      const std::function<void(std::string_view)>& write);

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "table/channel_names.h"
 #include "table/file_error.h"
 #include "table/formats/columns.h"
 #include "table/formats/gonio_csv.h"
@@ -27,30 +28,15 @@ std::string one_line(std::string_view text) {
   return line;
 }
 
-/// Fails for a channel name that would be read back as something else.
-void check_channel_name(const std::string& name) {
-  const bool breaks_a_field = name.find_first_of(",\"\r\n") != std::string::npos;
-  if (breaks_a_field || trimmed(name) != name) {
-    throw FileError(fmt::format(
-        "channel name {} cannot be a column of a gonio-table: rename it without commas, "
-        "quotes, line ends and outer blanks",
-        quoted(name)));
-  }
-}
-
 std::vector<std::string> column_names(const SampleTable& table,
                                       std::span<const ExtraColumn> extra_columns) {
   std::vector<std::string> channels = table.channels;
   for (const ExtraColumn& extra : extra_columns) channels.push_back(extra.name);
-  for (const std::string& channel : channels) check_channel_name(channel);
+  if (const auto problem = channel_names_problem(channels)) {
+    throw FileError(fmt::format("the table's channel names: {}: rename the channel", *problem));
+  }
   std::vector<std::string> names(angle_names.begin(), angle_names.end());
   names.insert(names.end(), channels.begin(), channels.end());
-  // A channel that is called like an angle, "weight" or "sigma_.." would change the table.
-  if (arrange_columns(names, "the table's channel names").channels != channels) {
-    throw FileError(
-        "the table's channel names: a channel named 'weight' or 'sigma_..' would be read back as "
-        "something else: rename it");
-  }
   if (table.has_sigma()) {
     for (const std::string& channel : table.channels) names.push_back("sigma_" + channel);
   }
@@ -87,7 +73,7 @@ void append_row(const SampleTable& table, std::span<const ExtraColumn> extra_col
     append_field(is_measured ? value : std::nan(""), text);
   };
   for (const std::vector<double>& channel : table.values) append_measured(channel[i]);
-  for (const ExtraColumn& extra : extra_columns) append_measured(extra.values[i]);
+  for (const ExtraColumn& extra : extra_columns) append_field(extra.values[i], text);
   for (const std::vector<double>& sigma : table.sigma) append_measured(sigma[i]);
   if (table.has_weight()) append_field(table.weight[i], text);
   text.push_back('\n');
