@@ -54,6 +54,11 @@ std::string_view describe(fit::Covariance kind) {
   return "";
 }
 
+/// Three decimals, but not for a noise-free best that makes all others astronomically worse.
+std::string ratio_text(double ratio) {
+  return ratio < 1e5 ? fmt::format("{:.3f} x", ratio) : fmt::format("{:.1e} x", ratio);
+}
+
 std::string metric_unit(fit::Metric metric) {
   return metric == fit::Metric::chi2 ? "sigma" : "1/sr";
 }
@@ -69,10 +74,9 @@ std::string report_table(const table::SampleTable& table, const fit::FitResult& 
 }
 
 std::string report_fit(const fit::FitResult& result) {
-  std::string text = fmt::format(
-      "\n{}, metric {}, {}, {} in {} iteration{}\n\n", result.model.name(), name(result.metric),
-      describe(result.uncertainty.kind), result.converged ? "converged" : "NOT converged",
-      result.iterations, result.iterations == 1 ? "" : "s");
+  std::string text = fmt::format("\n{}, metric {}, {}, {}\n\n", result.model.name(),
+                                 name(result.metric), describe(result.uncertainty.kind),
+                                 result.converged ? "converged" : "NOT converged");
   text += fmt::format("  {:<14} {:>14} {:>14}   {}\n", "parameter", "estimate", "std deviation",
                       "95 % interval");
   for (std::size_t u = 0; u < result.unknowns.size(); ++u) text += row_of(result, u);
@@ -94,7 +98,7 @@ std::string report_ranking(const std::vector<fit::FitResult>& results) {
   for (const fit::FitResult& result : results) {
     const double least = results.front().metric_error;
     const std::string ratio =
-        least > 0 ? fmt::format("{:.4g} x", result.metric_error / least) : std::string("-");
+        least > 0 ? ratio_text(result.metric_error / least) : std::string("-");
     text += fmt::format("  {:<32} {:>10} {:>18.6g} {:>10}{}\n", result.model.name(),
                         result.unknowns.size(), result.metric_error, ratio,
                         result.converged ? "" : "  not converged");
