@@ -26,7 +26,7 @@ struct PassOptions {
 template <class MakeState, class Fold>
 auto chunk_pass(const WeightedSamples& samples, const PassOptions& options,
                 const MakeState& make_state, const Fold& fold) {
-  constexpr std::size_t chunks_per_task = 32;
+  constexpr std::size_t chunks_per_task = 8;
   using State = decltype(make_state());
   const std::size_t chunks = samples.chunk_count();
   const std::size_t tasks =
