@@ -16,17 +16,6 @@
 namespace gonio::tests {
 namespace {
 
-/// Where the rivals' scripts are: $GONIO_PEERS, else beside the real data.
-std::string peer_script(const std::string& name) {
-  const char* variable = std::getenv("GONIO_PEERS");
-  const std::filesystem::path folder =
-      variable != nullptr && *variable != '\0'
-          ? std::filesystem::path(variable)
-          : std::filesystem::path(GONIO_SOURCE_DIR) / ".." / "shared" / "peers";
-  const std::filesystem::path path = folder / name;
-  return std::filesystem::exists(path) ? path.lexically_normal().string() : std::string();
-}
-
 bool has_numpy() { return std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") == 0; }
 
 TEST(TheGlobalMinimum, IsFoundForAHundredTruthsWithoutAStartValue) {

@@ -9,6 +9,9 @@ namespace gonio::tests {
 /// The path of `relative` ("paints/C8_Silver.astm") in the data folder, or empty if it is absent.
 std::string real_data(const std::string& relative);
 
+/// The path of a rival's script in $GONIO_PEERS, else in ../shared/peers, or empty if it is absent.
+std::string peer_script(const std::string& name);
+
 }  // namespace gonio::tests
 
 /// Sets `path` to real data, or skips the test, naming what is missing.

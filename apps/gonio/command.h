@@ -7,7 +7,9 @@
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace gonio::app {
 
@@ -23,6 +25,9 @@ void add_fit_command(CLI::App& app, Invocation& invocation);
 void add_info_command(CLI::App& app, Invocation& invocation);
 void add_models_command(CLI::App& app, Invocation& invocation);
 void add_synth_command(CLI::App& app, Invocation& invocation);
+
+/// A number that is the whole of a text, whatever the locale; nothing if it is none.
+std::optional<double> parse_number(std::string_view text);
 
 /// Writes text to stdout. Throws table::FileError when stdout cannot take it (a full disk).
 void print(std::string_view text);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -29,18 +28,10 @@ struct Angles {
   double theta_deg, phi_deg;
 };
 
-/// One number of "THETA,PHI"; nothing if the text is more or less than that.
-std::optional<double> number_of(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 Angles parse_angles(std::string_view option, std::string_view text) {
   const std::size_t comma = std::min(text.find(','), text.size());
-  const auto theta = number_of(text.substr(0, comma));
-  const auto phi = number_of(text.substr(std::min(comma + 1, text.size())));
+  const auto theta = parse_number(text.substr(0, comma));
+  const auto phi = parse_number(text.substr(std::min(comma + 1, text.size())));
   if (!theta || !phi || !std::isfinite(*phi)) {
     throw std::invalid_argument(fmt::format(
         "{} {}: expected THETA,PHI in degrees, two numbers such as 30,180", option, text));

@@ -1,7 +1,6 @@
 // gonio fit: from a table to parameters with error bars.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <limits>
@@ -10,6 +9,7 @@
 #include <stdexcept>
 
 #include "apps/gonio/command.h"
+#include "apps/gonio/fit_arguments.h"
 #include "apps/gonio/fit_report.h"
 #include "apps/gonio/progress.h"
 #include "brdf/model.h"
@@ -25,20 +25,6 @@
 namespace gonio::app {
 namespace {
 
-struct FitArguments {
-  std::string table;
-  std::optional<std::string> models;
-  std::string metric = "cosine-l2";
-  std::string covariance = "auto";
-  std::string noise;
-  std::vector<std::string> fixed, start, bounds;
-  double max_theta = 80;
-  int threads = 0;
-  std::string output;
-  std::string residuals;
-  bool json = false;
-};
-
 struct TimedFit {
   fit::FitResult result;
   double seconds;
@@ -53,67 +39,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-double number_in(std::string_view text, std::string_view option, std::string_view form) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) {
-    throw std::invalid_argument(
-        fmt::format("{} needs {}; '{}' is not a number", option, form, text));
-  }
-  return value;
-}
-
-/// Splits at the first `separator`. Throws if there is none.
-std::pair<std::string, std::string> split(const std::string& text, char separator,
-                                          std::string_view option, std::string_view form) {
-  const std::size_t at = text.find(separator);
-  if (at == std::string::npos) {
-    throw std::invalid_argument(fmt::format("{} needs {}; found '{}'", option, form, text));
-  }
-  return {text.substr(0, at), text.substr(at + 1)};
-}
-
-std::vector<fit::ParameterSetting> settings_in(const std::vector<std::string>& texts,
-                                               std::string_view option) {
-  constexpr std::string_view form = "parameter=value, e.g. alpha_x=0.1 or rho_d.R=0.2";
-  std::vector<fit::ParameterSetting> settings;
-  for (const std::string& text : texts) {
-    const auto [parameter, value] = split(text, '=', option, form);
-    settings.push_back({parameter, number_in(value, option, form)});
-  }
-  return settings;
-}
-
-fit::Options options_in(const FitArguments& arguments) {
-  fit::Options options;
-  options.metric = fit::metric_from_name(arguments.metric);
-  options.covariance = fit::covariance_from_name(arguments.covariance);
-  if (!(arguments.max_theta > 0 && arguments.max_theta <= 90)) {
-    throw std::invalid_argument("--max-theta needs an angle above 0 and up to 90 degrees");
-  }
-  options.max_theta_deg = arguments.max_theta;
-  if (arguments.threads < 0) throw std::invalid_argument("--threads needs a number from 0 (all)");
-  options.threads = arguments.threads;
-  if (!arguments.noise.empty()) {
-    constexpr std::string_view form = "REL,ABS, e.g. 0.02,0.001 for 2 % and 0.001/sr";
-    if (options.metric != fit::Metric::chi2) {
-      throw std::invalid_argument("--noise is what metric chi2 weighs by: add --metric chi2");
-    }
-    const auto [relative, absolute] = split(arguments.noise, ',', "--noise", form);
-    options.noise = {number_in(relative, "--noise", form), number_in(absolute, "--noise", form)};
-  }
-  options.fixed = settings_in(arguments.fixed, "--fix");
-  options.start = settings_in(arguments.start, "--start");
-  for (const std::string& text : arguments.bounds) {
-    constexpr std::string_view form = "parameter=lower:upper, e.g. alpha=0.01:0.5";
-    const auto [parameter, range] = split(text, '=', "--bounds", form);
-    const auto [lower, upper] = split(range, ':', "--bounds", form);
-    options.bounds.push_back(
-        {parameter, number_in(lower, "--bounds", form), number_in(upper, "--bounds", form)});
-  }
-  return options;
-}
 
 bool asks_for_all(const FitArguments& arguments) {
   return !arguments.models || *arguments.models == "all";

@@ -1,0 +1,31 @@
+// What a user writes behind gonio fit, and what it means.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fit/options.h"
+
+namespace gonio::app {
+
+/// The texts of the command line.
+struct FitArguments {
+  std::string table;
+  std::optional<std::string> models;
+  std::string metric = "cosine-l2";
+  std::string covariance = "auto";
+  std::string noise;
+  std::vector<std::string> fixed, start, bounds;
+  double max_theta = 80;
+  int threads = 0;
+  std::string output;
+  std::string residuals;
+  bool json = false;
+};
+
+/// The options that they stand for. Throws std::invalid_argument that names the option and what it
+/// needs.
+fit::Options options_in(const FitArguments& arguments);
+
+}  // namespace gonio::app
