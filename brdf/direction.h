@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "brdf/scalar.h"
+
 namespace gonio::brdf {
 
 /// A direction by its Cartesian components; unit length is the caller's duty.
@@ -28,8 +30,8 @@ inline Direction<double> direction_from_degrees(double theta, double phi) {
 
 /// True if both directions are above the horizon; every model is exactly 0 elsewhere.
 template <class T>
-bool above_horizon(const Direction<T>& wi, const Direction<T>& wo) {
-  return wi.z > T(0) && wo.z > T(0);
+auto above_horizon(const Direction<T>& wi, const Direction<T>& wo) {
+  return both(less(T(0), wi.z), less(T(0), wo.z));
 }
 
 /// The half vector h = wi + wo, left unnormalised: ratios of its components need no square root

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <limits>
-#include <numbers>
 
 #include "brdf/term.h"
 
@@ -33,7 +32,7 @@ struct Lambert {
   template <class S, class D>
   static std::array<S, 1> basis(const std::array<S, 0>& /*shape*/, const Direction<D>& wi,
                                 const Direction<D>& wo) {
-    return {above_horizon(wi, wo) ? S(D(1) / std::numbers::pi_v<D>) : S(0)};
+    return {select(above_horizon(wi, wo), S(D(1) / pi<D>()), S(D(0)))};
   }
 };
 

@@ -9,10 +9,8 @@
 // that alpha = 1e-4 loses no digits. With unit amplitude rho_s = 1; units 1/sr.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "brdf/term.h"
 
@@ -27,10 +25,10 @@ S gaussian_over(const S& exponent, const S& denominator) {
   using std::exp;
   // -log of the smallest positive number: beyond it exp() is 0 and 0/0 would be NaN.
   constexpr double underflow = std::numeric_limits<D>::max_exponent <= 128 ? 103.9 : 745.1;
-  constexpr D largest = (std::numeric_limits<D>::max)();
-  if (!(exponent < S(D(underflow)))) return S(0);
+  const S largest((std::numeric_limits<D>::max)());
   const S value = exp(-exponent) / denominator;
-  return value < S(largest) ? value : S(largest);
+  return select(less(exponent, S(D(underflow))), select(less(value, largest), value, largest),
+                S(D(0)));
 }
 
 }  // namespace ward_detail
@@ -51,8 +49,8 @@ struct WardLobe {
     const S v = S(h.y / h.z) / alpha_y;
     // Two roots: the product of two small cosines would underflow.
     const D roots = sqrt(wi.z) * sqrt(wo.z);
-    return ward_detail::gaussian_over<D>(
-        S(u * u + v * v), S(alpha_x * alpha_y * (D(4) * std::numbers::pi_v<D> * roots)));
+    return ward_detail::gaussian_over<D>(S(u * u + v * v),
+                                         S(alpha_x * alpha_y * (D(4) * pi<D>() * roots)));
   }
 };
 
@@ -71,7 +69,7 @@ struct WardApproxLobe {
     using std::sqrt;
     const Direction<D> h = half_vector(wi, wo);
     // Scaled: the squares of a half vector between opposite grazing directions would underflow.
-    const D scale = std::max({D(abs(h.x)), D(abs(h.y)), h.z});
+    const D scale = larger(larger(D(abs(h.x)), D(abs(h.y))), h.z);
     const D x = h.x / scale;
     const D y = h.y / scale;
     const D z = h.z / scale;
@@ -79,9 +77,8 @@ struct WardApproxLobe {
     const S u = S(x / length) / alpha_x;
     const S v = S(y / length) / alpha_y;
     const D roots = sqrt(wi.z) * sqrt(wo.z);
-    return ward_detail::gaussian_over<D>(
-        S((u * u + v * v) * (D(2) / (D(1) + z / length))),
-        S(alpha_x * alpha_y * (D(4) * std::numbers::pi_v<D> * roots)));
+    return ward_detail::gaussian_over<D>(S((u * u + v * v) * (D(2) / (D(1) + z / length))),
+                                         S(alpha_x * alpha_y * (D(4) * pi<D>() * roots)));
   }
 };
 
@@ -98,8 +95,8 @@ struct WardDuerLobe {
     const Direction<D> h = half_vector(wi, wo);
     const S u = S(h.x / h.z) / alpha_x;
     const S v = S(h.y / h.z) / alpha_y;
-    return ward_detail::gaussian_over<D>(
-        S(u * u + v * v), S(alpha_x * alpha_y * (D(4) * std::numbers::pi_v<D> * wi.z * wo.z)));
+    return ward_detail::gaussian_over<D>(S(u * u + v * v),
+                                         S(alpha_x * alpha_y * (D(4) * pi<D>() * wi.z * wo.z)));
   }
 };
 
@@ -121,7 +118,7 @@ struct WardGmdLobe {
     // (h.h)/hz^4 = (1 + q)/hz^2: hz^4 would underflow and give 0 * inf.
     return ward_detail::gaussian_over<D>(
         S(u * u + v * v),
-        S(alpha_x * alpha_y * (std::numbers::pi_v<D> * h.z * h.z / (D(1) + qx * qx + qy * qy))));
+        S(alpha_x * alpha_y * (pi<D>() * h.z * h.z / (D(1) + qx * qx + qy * qy))));
   }
 };
 
@@ -168,8 +165,7 @@ struct IsotropicWard {
   template <class S, class D>
   static std::array<S, 1> basis(const std::array<S, 1>& alpha, const Direction<D>& wi,
                                 const Direction<D>& wo) {
-    if (!above_horizon(wi, wo)) return {S(0)};
-    return {Lobe::value(alpha[0], alpha[0], wi, wo)};
+    return {select(above_horizon(wi, wo), Lobe::value(alpha[0], alpha[0], wi, wo), S(D(0)))};
   }
 };
 
@@ -188,8 +184,7 @@ struct AnisotropicWard {
   template <class S, class D>
   static std::array<S, 1> basis(const std::array<S, 2>& alpha, const Direction<D>& wi,
                                 const Direction<D>& wo) {
-    if (!above_horizon(wi, wo)) return {S(0)};
-    return {Lobe::value(alpha[0], alpha[1], wi, wo)};
+    return {select(above_horizon(wi, wo), Lobe::value(alpha[0], alpha[1], wi, wo), S(D(0)))};
   }
 };
 
