@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "brdf/free_frame.h"
+
 namespace gonio::brdf {
 namespace {
 
@@ -15,8 +17,9 @@ std::string text_of(double value) {
 }
 
 std::string bounds_of(const Parameter& parameter) {
-  if (std::isinf(parameter.upper)) return text_of(parameter.lower) + " or more";
-  return text_of(parameter.lower) + " to " + text_of(parameter.upper);
+  const std::string unit = parameter.unit == "1" ? "" : ", in " + std::string(parameter.unit);
+  if (std::isinf(parameter.upper)) return text_of(parameter.lower) + " or more" + unit;
+  return text_of(parameter.lower) + " to " + text_of(parameter.upper) + unit;
 }
 
 void check_values(const OrderedParameter& expected, std::span<const double> values,
@@ -86,6 +89,15 @@ std::vector<OrderedParameter> ordered_parameters(const Model& model) {
     }
   }
   return result;
+}
+
+Model model_for(std::string_view name, std::span<const NamedValues> parameters) {
+  const std::string first(tangent_angle.name);
+  const std::string second = first + std::string(second_lobe_suffix);
+  const bool has_angle =
+      std::any_of(parameters.begin(), parameters.end(),
+                  [&](const NamedValues& p) { return p.name == first || p.name == second; });
+  return Model(name, has_angle ? Frame::free : Frame::of_table);
 }
 
 BoundModel::BoundModel(Model model, std::size_t channel_count,

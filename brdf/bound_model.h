@@ -27,6 +27,11 @@ struct NamedValues {
   std::span<const double> values;
 };
 
+/// The model of that name in the frame that the parameters are for: the free one if a tangent angle
+/// (`psi` or `psi_2`) is among them. Whether they suit it is for BoundModel to say. Throws as Model
+/// does.
+Model model_for(std::string_view name, std::span<const NamedValues> parameters);
+
 /// What is wrong with the values of a parameter; parameter() names it.
 class ParameterError : public std::invalid_argument {
  public:

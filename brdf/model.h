@@ -1,4 +1,5 @@
-// A model: a sum of terms, named `diffuse`, `specular` or `diffuse+specular`.
+// A model: a sum of terms, named `diffuse`, `specular`, `diffuse+specular` or
+// `diffuse+specular+specular`. The parameters of the second specular term bear the suffix `_2`.
 //
 // f_r of channel c = sum over k of amplitudes[k][c] * basis_k(shape; wi, wo), in 1/sr. The
 // amplitudes differ per channel, the shape is shared by all channels.
@@ -21,15 +22,22 @@ struct TermEntry {
   TermDescription description;
   std::span<const Parameter> amplitudes;
   std::span<const Parameter> shape;
-  /// The position in `Terms`, for tables that other rooms build over the same list.
+  /// The position in `EvaluatedTerms`, for tables that other rooms build over the same list.
   std::size_t index;
   /// Writes the basis values (as many as amplitudes) for the given shape.
   void (*basis)(const double* shape, const Direction<double>& wi, const Direction<double>& wo,
                 double* values);
 };
 
-/// Every term there is, in the order of the list.
+/// Every term that users can name, in the order of the list.
 std::span<const TermEntry> all_terms();
+
+/// Where the tangent of the anisotropic terms points: along x of the table, or at an angle psi to
+/// it that is a parameter of each such term (free_frame.h).
+enum class Frame { of_table, free };
+
+/// What the names of the second specular term's parameters end in.
+inline constexpr std::string_view second_lobe_suffix = "_2";
 
 /// A parameter of a model: the descriptor, under the name that it has in this model.
 struct ModelParameter {
@@ -41,12 +49,17 @@ struct ModelParameter {
 /// An immutable composition of terms.
 class Model {
  public:
-  /// Parses `lambert`, `lambert+ward-aniso` or a bare specular name, which brings its author's
-  /// diffuse term. Throws std::invalid_argument that lists what there is.
-  explicit Model(std::string_view name);
+  /// Parses `lambert`, `lambert+ward-aniso`, `lambert+ward+ward-aniso` or a bare specular name,
+  /// which brings its author's diffuse term. The frame makes no difference to a model without
+  /// anisotropic terms. Throws std::invalid_argument that lists what there is.
+  explicit Model(std::string_view name, Frame frame = Frame::of_table);
 
-  /// The canonical name, with the diffuse term spelled out.
+  /// The canonical name, with the diffuse term spelled out; the same for either frame.
   const std::string& name() const { return name_; }
+  /// Whether a term has a tangent.
+  bool is_anisotropic() const;
+  /// Whether each tangent has its own angle psi: true of anisotropic models with Frame::free.
+  bool has_free_frame() const { return frame_ == Frame::free && is_anisotropic(); }
   std::span<const TermEntry* const> terms() const { return terms_; }
   /// One value per channel each.
   std::span<const ModelParameter> amplitudes() const { return amplitudes_; }
@@ -64,6 +77,7 @@ class Model {
                   const Direction<double>& wi, const Direction<double>& wo) const;
 
  private:
+  Frame frame_;
   std::string name_;
   std::vector<const TermEntry*> terms_;
   std::vector<ModelParameter> amplitudes_;

@@ -5,8 +5,9 @@
 
 namespace gonio::brdf {
 
-/// How a search walks along a parameter: `logarithmic` for scales such as a roughness.
-enum class Scale { linear, logarithmic };
+/// How a search walks along a parameter: `logarithmic` for scales such as a roughness, `periodic`
+/// for an angle whose bounds are one period apart, so that both ends say the same.
+enum class Scale { linear, logarithmic, periodic };
 
 struct Parameter {
   std::string_view name;

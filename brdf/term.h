@@ -32,6 +32,9 @@ struct TermDescription {
   std::string_view companion;
   std::string_view summary;
   std::string_view source;
+  /// True if turning the material about its normal changes the value: the term has a tangent,
+  /// which may be given a free angle (free_frame.h).
+  bool anisotropic = false;
 };
 
 template <class T>

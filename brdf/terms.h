@@ -2,7 +2,10 @@
 #pragma once
 
 #include <tuple>
+#include <type_traits>
+#include <utility>
 
+#include "brdf/free_frame.h"
 #include "brdf/lambert.h"
 #include "brdf/ward.h"
 
@@ -16,5 +19,22 @@ using Terms = std::tuple<
     IsotropicWard<WardDuerLobe>,   AnisotropicWard<WardDuerLobe>,
     IsotropicWard<WardGmdLobe>,    AnisotropicWard<WardGmdLobe>>;
 // clang-format on
+
+namespace terms_detail {
+
+template <class T>
+using FreeFrameIfAnisotropic =
+    std::conditional_t<T::description.anisotropic, std::tuple<FreeFrame<T>>, std::tuple<>>;
+
+template <class... T>
+auto with_free_frames(const std::tuple<T...>&)
+    -> decltype(std::tuple_cat(std::declval<std::tuple<T...>>(),
+                               std::declval<FreeFrameIfAnisotropic<T>>()...));
+
+}  // namespace terms_detail
+
+/// Everything that a model may be made of: the list above, then every anisotropic term of it again
+/// with a free frame. TermEntry::index counts in it.
+using EvaluatedTerms = decltype(terms_detail::with_free_frames(std::declval<Terms>()));
 
 }  // namespace gonio::brdf

@@ -175,7 +175,8 @@ struct AnisotropicWard {
                                                .kind = TermKind::specular,
                                                .companion = "lambert",
                                                .summary = Lobe::summary,
-                                               .source = Lobe::source};
+                                               .source = Lobe::source,
+                                               .anisotropic = true};
   static constexpr std::array<Parameter, 1> amplitudes{specular_albedo};
   static constexpr std::array<Parameter, 2> shape{
       ward_roughness("alpha_x", "roughness along the tangent x (the brushing)"),

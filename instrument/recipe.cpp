@@ -6,7 +6,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "brdf/bound_model.h"
 #include "table/channel_names.h"
 #include "table/json_file.h"
 
@@ -29,10 +28,8 @@ Problem material_problem(const Recipe& recipe) {
   if (const auto problem = table::channel_names_problem(recipe.channels)) {
     return RecipeProblem{"/channels", *problem};
   }
-  std::vector<brdf::NamedValues> values;
-  for (const auto& [name, value] : recipe.parameters) values.push_back({name, value});
   try {
-    brdf::BoundModel(brdf::Model(recipe.model), recipe.channels.size(), values);
+    bind(recipe);
   } catch (const brdf::ParameterError& error) {
     return RecipeProblem{"/parameters/" + error.parameter(), error.what()};
   } catch (const std::invalid_argument& error) {
@@ -189,6 +186,12 @@ Recipe recipe_of(const table::JsonFile& file) {
 }
 
 }  // namespace
+
+brdf::BoundModel bind(const Recipe& recipe) {
+  std::vector<brdf::NamedValues> values;
+  for (const auto& [name, value] : recipe.parameters) values.push_back({name, value});
+  return {brdf::model_for(recipe.model, values), recipe.channels.size(), values};
+}
 
 std::optional<RecipeProblem> find_problem(const Recipe& recipe) {
   if (auto problem = material_problem(recipe)) return problem;

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "brdf/bound_model.h"
 #include "table/sample_table.h"
 
 namespace gonio::instrument {
@@ -48,7 +49,8 @@ struct Recipe {
   std::string model;
   std::vector<std::string> channels;
   /// Every parameter of the model: one value per channel for an amplitude, a single one for a
-  /// shape.
+  /// shape. With a tangent angle (psi, psi_2) among them, the material's frame is turned by it in
+  /// the sample's.
   std::map<std::string, std::vector<double>> parameters;
   std::vector<double> incidence_angles_deg;
   std::vector<double> sample_rotations_deg;
@@ -62,6 +64,10 @@ struct Recipe {
   /// What the instrument reads, and therefore what the noise is added to. The table holds f_r.
   table::Quantity quantity = table::Quantity::brdf;
 };
+
+/// The recipe's material, to be evaluated many times. Throws std::invalid_argument for an unknown
+/// model or values that do not suit it.
+brdf::BoundModel bind(const Recipe& recipe);
 
 /// What keeps a recipe from being measured.
 struct RecipeProblem {

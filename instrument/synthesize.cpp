@@ -7,8 +7,6 @@
 #include <random>
 #include <stdexcept>
 
-#include "brdf/bound_model.h"
-
 namespace gonio::instrument {
 namespace {
 
@@ -159,12 +157,6 @@ void measure(const Recipe& recipe, const brdf::BoundModel& model, table::SampleT
   }
 }
 
-brdf::BoundModel material_of(const Recipe& recipe) {
-  std::vector<brdf::NamedValues> values;
-  for (const auto& [name, value] : recipe.parameters) values.push_back({name, value});
-  return {brdf::Model(recipe.model), recipe.channels.size(), values};
-}
-
 }  // namespace
 
 table::SampleTable synthesize(const Recipe& recipe) {
@@ -179,7 +171,7 @@ table::SampleTable synthesize(const Recipe& recipe) {
   table.provenance.quantity = recipe.quantity;
   append_directions(recipe, table);
   table.mask.assign(table.wi.size(), table::MaskReason::none);
-  measure(recipe, material_of(recipe), table);
+  measure(recipe, bind(recipe), table);
   return table;
 }
 

@@ -1,11 +1,22 @@
 #include "material/evaluate.h"
 
 namespace gonio::material {
+namespace {
 
-brdf::BoundModel bind(const Material& material) {
+std::vector<brdf::NamedValues> values_of(const Material& material) {
   std::vector<brdf::NamedValues> values;
   for (const ParameterValue& p : material.parameters) values.push_back({p.name, p.value});
-  return {brdf::Model(material.model), material.channels.size(), values};
+  return values;
+}
+
+}  // namespace
+
+brdf::Model model_of(const Material& material) {
+  return brdf::model_for(material.model, values_of(material));
+}
+
+brdf::BoundModel bind(const Material& material) {
+  return {model_of(material), material.channels.size(), values_of(material)};
 }
 
 std::vector<std::vector<double>> evaluate(const Material& material,

@@ -9,6 +9,10 @@
 
 namespace gonio::material {
 
+/// The material's model, with a free frame if a tangent angle is among the parameters. Throws
+/// std::invalid_argument for an unknown model.
+brdf::Model model_of(const Material& material);
+
 /// The material's model with its values, to be evaluated many times. Throws std::invalid_argument
 /// for an unknown model or values that do not suit it.
 brdf::BoundModel bind(const Material& material);

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "material/evaluate.h"
+#include "material/fit_summary_json.h"
 #include "table/channel_names.h"
 #include "table/json_file.h"
 #include "table/output_file.h"
@@ -23,9 +22,13 @@ constexpr std::uint64_t newest_version = 1;
 
 // Reading ------------------------------------------------------------------------------------
 
-brdf::Model read_model(const JsonField& field) {
+/// The model named at `field`, in the frame that the members of `parameters` are for.
+brdf::Model read_model(const JsonField& field, const JsonField& parameters) {
+  const auto members = parameters.members();
+  std::vector<brdf::NamedValues> names;
+  for (const auto& [name, value] : members) names.push_back({name, {}});
   try {
-    return brdf::Model(field.text());
+    return brdf::model_for(field.text(), names);
   } catch (const std::invalid_argument& error) {
     field.refuse(error.what());
   }
@@ -123,49 +126,6 @@ std::vector<ParameterValue> in_order(const brdf::Model& model,
   return ordered;
 }
 
-std::vector<std::vector<std::optional<double>>> read_correlation(const JsonField& field,
-                                                                 std::size_t count) {
-  std::vector<std::vector<std::optional<double>>> rows;
-  for (const JsonField& row : field.elements()) {
-    rows.emplace_back();
-    for (const JsonField& entry : row.elements()) {
-      rows.back().push_back(entry.is_null() ? std::nullopt : std::optional(entry.number()));
-    }
-    if (rows.back().size() != count) row.expected(fmt::format("a row of {}", count));
-  }
-  if (rows.size() != count) {
-    field.expected(fmt::format("{} rows, one per entry of correlation_parameters", count));
-  }
-  return rows;
-}
-
-int read_iterations(const JsonField& field) {
-  const std::uint64_t count = field.whole_number();
-  if (count > std::numeric_limits<int>::max()) field.expected("a number of iterations");
-  return static_cast<int>(count);
-}
-
-FitSummary read_fit(const JsonField& field) {
-  FitSummary fit;
-  if (const auto f = field.find("metric")) fit.metric = f->text();
-  if (const auto f = field.find("loss")) fit.loss = f->text();
-  if (const auto f = field.find("covariance")) fit.covariance = f->text();
-  if (const auto f = field.find("samples")) fit.samples = f->whole_number();
-  if (const auto f = field.find("used")) fit.used = f->whole_number();
-  if (const auto f = field.find("converged")) fit.converged = f->flag();
-  if (const auto f = field.find("iterations")) fit.iterations = read_iterations(*f);
-  if (const auto f = field.find("errors")) {
-    for (const auto& [name, value] : f->members()) fit.errors.emplace_back(name, value.number());
-  }
-  if (const auto f = field.find("reduced_chi2")) fit.reduced_chi2 = f->number();
-  if (const auto f = field.find("correlation_parameters")) fit.correlation_parameters = f->texts();
-  if (const auto f = field.find("correlation")) {
-    fit.correlation = read_correlation(*f, fit.correlation_parameters.size());
-  }
-  if (const auto f = field.find("warnings")) fit.warnings = f->texts();
-  return fit;
-}
-
 MaterialProvenance read_provenance(const JsonField& field) {
   const auto text = [&](std::string_view key) {
     const auto member = field.find(key);
@@ -180,18 +140,18 @@ MaterialProvenance read_provenance(const JsonField& field) {
 Material material_of(const table::JsonFile& file) {
   file.require_format(format_word, newest_version);
   const JsonField root = file.root();
-  const brdf::Model model = read_model(root.member("model"));
+  const JsonField parameters = root.member("parameters");
+  const brdf::Model model = read_model(root.member("model"), parameters);
   Material material;
   material.model = model.name();
   material.channels = read_channels(root.member("channels"));
   if (const auto name = root.find("name")) material.name = name->text();
-  const JsonField parameters = root.member("parameters");
   for (const auto& [name, field] : parameters.members()) {
     material.parameters.push_back(read_parameter(name, field, is_shape(model, name)));
   }
   require_suitable(material, model, parameters);
   material.parameters = in_order(model, material.parameters);
-  if (const auto fit = root.find("fit")) material.fit = read_fit(*fit);
+  if (const auto fit = root.find("fit")) material.fit = read_fit_summary(*fit);
   if (const auto provenance = root.find("provenance")) {
     material.provenance = read_provenance(*provenance);
   }
@@ -225,7 +185,7 @@ void add_values(ordered_json& parameter, const char* key, const std::vector<T>& 
 }
 
 ordered_json parameters_of(const Material& material) {
-  const brdf::Model model(material.model);
+  const brdf::Model model = model_of(material);
   ordered_json parameters = ordered_json::object();
   for (const ParameterValue& p : material.parameters) {
     const bool is_list = !is_shape(model, p.name);
@@ -236,26 +196,6 @@ ordered_json parameters_of(const Material& material) {
     parameters[p.name] = parameter;
   }
   return parameters;
-}
-
-ordered_json json_of(const FitSummary& fit) {
-  ordered_json errors = ordered_json::object();
-  for (const auto& [metric, error] : fit.errors) errors[metric] = error;
-  ordered_json json;
-  json["metric"] = fit.metric;
-  json["loss"] = fit.loss;
-  json["covariance"] = fit.covariance;
-  json["samples"] = fit.samples;
-  json["used"] = fit.used;
-  json["converged"] = fit.converged;
-  json["iterations"] = fit.iterations;
-  json["errors"] = errors;
-  if (fit.reduced_chi2) json["reduced_chi2"] = *fit.reduced_chi2;
-  json["correlation_parameters"] = fit.correlation_parameters;
-  json["correlation"] = ordered_json::array();
-  for (const auto& row : fit.correlation) json["correlation"].push_back(array_of(row));
-  json["warnings"] = fit.warnings;
-  return json;
 }
 
 ordered_json json_of(const MaterialProvenance& provenance) {

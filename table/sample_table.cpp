@@ -52,8 +52,17 @@ void DirectionArray::set(std::size_t i, const brdf::Direction<double>& d) {
   z[i] = d.z;
 }
 
-SampleFilter::SampleFilter(const SampleTable& table, double max_theta_deg)
+SampleFilter::SampleFilter(const SampleTable& table, double max_theta_deg,
+                           const std::optional<IncidenceBand>& incidence)
     : table_(&table),
-      min_cos_(std::cos(std::min(max_theta_deg + 1e-6, 90.0) * std::numbers::pi / 180)) {}
+      min_cos_(std::cos(std::min(max_theta_deg + 1e-6, 90.0) * std::numbers::pi / 180)),
+      has_band_(incidence.has_value()) {
+  if (!incidence) return;
+  inside_ = incidence->inside;
+  // cos falls with the angle.
+  const auto cos_of = [](double degrees) { return std::cos(degrees * std::numbers::pi / 180); };
+  band_max_cos_ = incidence->lower_deg <= 0 ? 2 : cos_of(incidence->lower_deg);
+  band_min_cos_ = incidence->upper_deg >= 90 ? -1 : cos_of(incidence->upper_deg);
+}
 
 }  // namespace gonio::table

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -72,19 +73,36 @@ struct SampleTable {
   bool has_weight() const { return !weight.empty(); }
 };
 
-/// True where sample `i` is not masked, has no weight of 0, and both polar angles are at most
-/// `max_theta_deg` (inclusive, + 1e-6 deg).
+/// Incidence angles from `lower_deg` to below `upper_deg`: the samples inside, or the others.
+struct IncidenceBand {
+  double lower_deg;
+  double upper_deg;
+  bool inside;
+};
+
+/// True where sample `i` is not masked, has no weight of 0, both polar angles are at most
+/// `max_theta_deg` (inclusive, + 1e-6 deg), and the incidence angle is where the band wants it.
 class SampleFilter {
  public:
-  SampleFilter(const SampleTable& table, double max_theta_deg);
+  SampleFilter(const SampleTable& table, double max_theta_deg,
+               const std::optional<IncidenceBand>& incidence = {});
   bool operator()(std::size_t i) const {
     return table_->mask[i] == MaskReason::none && table_->wi.z[i] >= min_cos_ &&
-           table_->wo.z[i] >= min_cos_ && (table_->weight.empty() || table_->weight[i] > 0);
+           table_->wo.z[i] >= min_cos_ && (table_->weight.empty() || table_->weight[i] > 0) &&
+           (!has_band_ || in_band(table_->wi.z[i]));
   }
 
  private:
+  bool in_band(double cos_i) const {
+    return (cos_i <= band_max_cos_ && cos_i > band_min_cos_) == inside_;
+  }
+
   const SampleTable* table_;
   double min_cos_;
+  bool has_band_;
+  bool inside_ = true;
+  double band_min_cos_ = 0;
+  double band_max_cos_ = 1;
 };
 
 }  // namespace gonio::table

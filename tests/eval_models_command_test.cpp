@@ -5,6 +5,7 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
 #include "brdf/bound_model.h"
@@ -17,6 +18,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 constexpr std::string_view brass = R"({
   "format": "gonio-material", "version": 1, "model": "ward-aniso", "channels": ["R", "G"],
@@ -66,6 +68,20 @@ TEST(EvalCommand, TellsProgramsTheSame) {
   EXPECT_EQ(json["channels"], (nlohmann::json{"R", "G"}));
   const auto f_r = expected(30, -20.5, 32, 180);
   EXPECT_EQ(json["f_r"], (nlohmann::json{f_r[0], f_r[1]}));
+}
+
+TEST(EvalCommand, TurnsTheTangentByPsi) {
+  const TemporaryFolder folder;
+  std::string turned(brass);
+  turned.replace(turned.find("\"alpha_x\""), 9, R"("psi": {"value": 0.5}, "alpha_x")");
+  const auto result = run_gonio(
+      {"eval", folder.write("turned.json", turned), "--wi", "30,0", "--wo", "32,150", "--json"});
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  const double psi_deg = 0.5 * 180 / std::numbers::pi;
+  const auto f_r = expected(30, -psi_deg, 32, 150 - psi_deg);
+  const auto printed = nlohmann::json::parse(result.out)["f_r"];
+  // Slopes wrong by 1e-15 move an exponent of 30 by 2 * 5.5 * 1e-15 / 0.05 = 2e-13.
+  for (std::size_t c = 0; c < 2; ++c) EXPECT_NEAR(printed[c].get<double>() / f_r[c], 1, 1e-12);
 }
 
 TEST(EvalCommand, EchoesATableWithAColumnPerChannelOfTheMaterial) {
@@ -159,6 +175,36 @@ TEST(ModelsCommand, ExplainsEveryParameterOfAModel) {
   EXPECT_EQ(parameters[2]["lower"], 1e-4);
   EXPECT_EQ(parameters[2]["upper"], 10);
   EXPECT_FALSE(parameters[2]["meaning"].get<std::string>().empty());
+}
+
+TEST(ModelsCommand, SaysWhatAFreeFrameAdds) {
+  const auto result = run_gonio({"models", "ward-aniso"});
+  EXPECT_THAT(result.out, AllOf(HasSubstr("with --free-frame\n"),
+                                HasSubstr("\n  psi       rad   -pi/2..pi/2 shared ")));
+  EXPECT_THAT(run_gonio({"models", "ward"}).out, Not(HasSubstr("psi")));
+  const auto json =
+      nlohmann::json::parse(run_gonio({"models", "lambert+ward+ward-aniso", "--json"}).out);
+  ASSERT_EQ(json["free_frame_parameters"].size(), 1U);
+  const auto& psi = json["free_frame_parameters"][0];
+  EXPECT_EQ(psi["name"], "psi_2");
+  EXPECT_EQ(psi["upper"], std::numbers::pi / 2);
+  EXPECT_EQ(psi["per_channel"], false);
+}
+
+TEST(ModelsCommand, ShowsASecondLobeWithItsOwnParameters) {
+  const auto result = run_gonio({"models", "lambert+ward+ward"});
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("rho_s ward(wi, wo; alpha) + rho_s_2 ward(wi, wo; alpha_2)"),
+                    HasSubstr("\n  rho_s_2 "), HasSubstr("\n  alpha_2 ")));
+  const std::string heading = "\nward (specular)\n";
+  const std::size_t first = result.out.find(heading);
+  ASSERT_NE(first, std::string::npos);
+  EXPECT_EQ(result.out.find(heading, first + 1), std::string::npos) << "one formula for both";
+  for (const std::string& line :
+       lines_of(run_gonio({"models", "lambert+ward-approx-aniso+ward-gmd-aniso"}).out)) {
+    EXPECT_LE(line.size(), 100U) << line;
+  }
 }
 
 TEST(ModelsCommand, ListsWhatThereIsForAnUnknownModel) {

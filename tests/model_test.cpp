@@ -24,6 +24,12 @@ std::vector<std::string> names(std::span<const ModelParameter> parameters) {
   return result;
 }
 
+std::vector<std::string> ordered_names(const Model& model) {
+  std::vector<std::string> result;
+  for (const OrderedParameter& p : ordered_parameters(model)) result.push_back(p.parameter->name);
+  return result;
+}
+
 template <class Action>
 std::string refusal(const Action& action) {
   try {
@@ -45,18 +51,58 @@ TEST(ModelTest, ParametersStandPerTermAmplitudesFirst) {
   const Model model("ward-aniso");
   EXPECT_THAT(names(model.amplitudes()), ElementsAre("rho_d", "rho_s"));
   EXPECT_THAT(names(model.shape()), ElementsAre("alpha_x", "alpha_y"));
-  std::vector<std::string> ordered;
-  for (const auto& p : ordered_parameters(model)) ordered.push_back(p.parameter->name);
-  EXPECT_THAT(ordered, ElementsAre("rho_d", "rho_s", "alpha_x", "alpha_y"));
+  EXPECT_THAT(ordered_names(model), ElementsAre("rho_d", "rho_s", "alpha_x", "alpha_y"));
+}
+
+TEST(ModelTest, TheSecondSpecularTermsParametersBearASuffix) {
+  const Model model("lambert+ward-gmd+ward-aniso");
+  EXPECT_EQ(model.name(), "lambert+ward-gmd+ward-aniso");
+  EXPECT_THAT(names(model.amplitudes()), ElementsAre("rho_d", "rho_s", "rho_s_2"));
+  EXPECT_THAT(names(model.shape()), ElementsAre("alpha", "alpha_x_2", "alpha_y_2"));
+  EXPECT_THAT(ordered_names(model),
+              ElementsAre("rho_d", "rho_s", "alpha", "rho_s_2", "alpha_x_2", "alpha_y_2"));
+  const Model twice("lambert+ward+ward");
+  EXPECT_EQ(twice.name(), "lambert+ward+ward");
+  EXPECT_THAT(ordered_names(twice), ElementsAre("rho_d", "rho_s", "alpha", "rho_s_2", "alpha_2"));
+}
+
+TEST(ModelTest, AFreeFrameGivesEveryAnisotropicTermItsTangentAngle) {
+  const Model one("ward-aniso", Frame::free);
+  EXPECT_EQ(one.name(), "lambert+ward-aniso") << "the frame is no part of the name";
+  EXPECT_THAT(ordered_names(one), ElementsAre("rho_d", "rho_s", "alpha_x", "alpha_y", "psi"));
+  const Model second("lambert+ward+ward-gmd-aniso", Frame::free);
+  EXPECT_THAT(names(second.shape()), ElementsAre("alpha", "alpha_x_2", "alpha_y_2", "psi_2"));
+  const Model both("lambert+ward-aniso+ward-aniso", Frame::free);
+  EXPECT_THAT(names(both.shape()),
+              ElementsAre("alpha_x", "alpha_y", "psi", "alpha_x_2", "alpha_y_2", "psi_2"));
+  const Parameter& psi = one.shape()[2].descriptor;
+  EXPECT_EQ(psi.unit, "rad");
+  EXPECT_EQ(psi.scale, Scale::periodic);
+  EXPECT_EQ(psi.upper - psi.lower, std::numbers::pi) << "one period";
+}
+
+TEST(ModelTest, OnlyAnisotropicModelsHaveAFrame) {
+  EXPECT_TRUE(Model("ward-aniso", Frame::free).has_free_frame());
+  EXPECT_FALSE(Model("ward-aniso").has_free_frame());
+  EXPECT_TRUE(Model("ward-aniso").is_anisotropic());
+  for (const char* name : {"lambert", "ward", "lambert+ward+ward-gmd"}) {
+    const Model free(name, Frame::free);
+    EXPECT_FALSE(free.has_free_frame());
+    EXPECT_FALSE(free.is_anisotropic());
+    EXPECT_EQ(names(free.shape()), names(Model(name).shape()));
+  }
 }
 
 TEST(ModelTest, RefusesWhatIsNoModelAndListsWhatThereIs) {
-  for (const char* name : {"", "+", "word", "ward+", "+ward", "ward+lambert", "lambert+lambert",
-                           "ward+ward", "lambert+ward+ward", "Ward", " ward", "lambert + ward"}) {
+  for (const char* name :
+       {"", "+", "word", "ward+", "+ward", "ward+lambert", "lambert+lambert", "ward+ward", "Ward",
+        " ward", "lambert + ward", "lambert+ward+", "lambert++ward", "lambert+ward+lambert",
+        "ward+ward+ward", "lambert+ward+ward+ward", "lambert+ward+word"}) {
     SCOPED_TRACE(name);
-    EXPECT_THAT(refusal([&] { Model{name}; }),
-                testing::AllOf(HasSubstr("'" + std::string(name) + "'"), HasSubstr("lambert"),
-                               HasSubstr("ward-gmd-aniso")));
+    EXPECT_THAT(
+        refusal([&] { Model{name}; }),
+        testing::AllOf(HasSubstr("'" + std::string(name) + "'"), HasSubstr("lambert"),
+                       HasSubstr("diffuse+specular+specular"), HasSubstr("ward-gmd-aniso")));
   }
 }
 
@@ -67,6 +113,17 @@ TEST(ModelTest, EveryListedNameIsAModelOfThatName) {
     EXPECT_TRUE(seen.insert(name).second) << name << " is listed twice";
   }
   EXPECT_EQ(seen.size(), all_terms().size());
+}
+
+TEST(ModelTest, ATermsIndexTellsItsPlaceAmongTheEvaluatedOnes) {
+  const auto terms = all_terms();
+  for (std::size_t i = 0; i < terms.size(); ++i) EXPECT_EQ(terms[i].index, i);
+  const Model fixed("ward-aniso");
+  const Model free("ward-aniso", Frame::free);
+  EXPECT_LT(fixed.terms()[1]->index, terms.size());
+  EXPECT_GE(free.terms()[1]->index, terms.size());
+  EXPECT_EQ(free.terms()[0]->index, fixed.terms()[0]->index);
+  EXPECT_EQ(free.terms()[1]->description.name, "ward-aniso");
 }
 
 TEST(ModelTest, EveryParameterIsDescribed) {
@@ -101,6 +158,68 @@ TEST(ModelTest, ValueIsTheSumOfItsTerms) {
   model.basis(shape, wi, wo, basis);
   EXPECT_DOUBLE_EQ(basis[0], 1 / std::numbers::pi);
   EXPECT_EQ(basis[1], lobe);
+}
+
+TEST(ModelTest, TwoLobesAddUpEachWithItsOwnShape) {
+  const Model model("lambert+ward+ward-gmd-aniso");
+  const auto wi = direction_from_degrees(30, 20);
+  const auto wo = direction_from_degrees(40, 190);
+  const std::array shape{0.2, 0.3, 0.4};
+  EXPECT_DOUBLE_EQ(model.evaluate(std::array{0.3, 0.25, 0.15}, shape, wi, wo),
+                   0.3 / std::numbers::pi + 0.25 * WardLobe::value(0.2, 0.2, wi, wo) +
+                       0.15 * WardGmdLobe::value(0.3, 0.4, wi, wo));
+}
+
+TEST(ModelTest, EachLobeHasItsOwnTangent) {
+  const Model model("lambert+ward-aniso+ward-duer-aniso", Frame::free);
+  const std::array shape{0.1, 0.3, 0.4, 0.2, 0.5, -0.7};
+  const auto turned = [](double theta, double phi, double psi) {
+    return direction_from_radians(theta, phi - psi);
+  };
+  const double first = WardLobe::value(0.1, 0.3, turned(.5, .1, .4), turned(.6, 3, .4));
+  const double second = WardDuerLobe::value(0.2, 0.5, turned(.5, .1, -.7), turned(.6, 3, -.7));
+  EXPECT_NEAR(
+      model.evaluate(std::array{0.0, 0.25, 0.15}, shape, turned(.5, .1, 0), turned(.6, 3, 0)) /
+          (0.25 * first + 0.15 * second),
+      1, 1e-12);  // free_frame_test derives it
+}
+
+TEST(ModelForTest, TheFrameIsFreeIfATangentAngleIsGiven) {
+  const std::array value{0.1};
+  const auto is_free = [&](const char* name, const char* parameter) {
+    const std::array<NamedValues, 2> values{{{"rho_d", value}, {parameter, value}}};
+    return model_for(name, values).has_free_frame();
+  };
+  EXPECT_TRUE(is_free("ward-aniso", "psi"));
+  EXPECT_TRUE(is_free("lambert+ward+ward-aniso", "psi_2"));
+  EXPECT_FALSE(is_free("ward-aniso", "alpha_x"));
+  EXPECT_FALSE(is_free("ward", "psi"));
+  EXPECT_THROW(is_free("phlogiston", "psi"), std::invalid_argument);
+}
+
+TEST(BoundModelTest, WantsTheTangentAngleOfEveryAnisotropicTermOrOfNone) {
+  const auto refusal_of = [](const char* model, std::vector<std::pair<const char*, double>> given) {
+    std::vector<NamedValues> values;
+    for (const auto& [name, value] : given) values.push_back({name, {&value, 1}});
+    return refusal([&] { BoundModel(model_for(model, values), 1, values); });
+  };
+  const char* two = "lambert+ward-aniso+ward-aniso";
+  std::vector<std::pair<const char*, double>> given{
+      {"rho_d", .1},   {"rho_s", .1},     {"alpha_x", .1},  {"alpha_y", .2},
+      {"rho_s_2", .1}, {"alpha_x_2", .1}, {"alpha_y_2", .2}};
+  EXPECT_EQ(refusal_of(two, given), "");
+  given.emplace_back("psi_2", 0.5);
+  EXPECT_THAT(refusal_of(two, given), HasSubstr("missing, expected all parameters of "
+                                                "lambert+ward-aniso+ward-aniso: rho_d, rho_s, "
+                                                "alpha_x, alpha_y, psi, rho_s_2"));
+  given.emplace_back("psi", 1.6);
+  EXPECT_THAT(refusal_of(two, given),
+              HasSubstr("found 1.6, outside the bounds of psi, expected -1.5707963267948966 to "
+                        "1.5707963267948966, in rad"));
+  given.back().second = std::numbers::pi / 2;
+  EXPECT_EQ(refusal_of(two, given), "") << "the bounds are closed";
+  EXPECT_THAT(refusal_of("ward", {{"rho_d", .1}, {"rho_s", .1}, {"alpha", .1}, {"psi", .1}}),
+              HasSubstr("not a parameter of lambert+ward, expected rho_d, rho_s, alpha"));
 }
 
 TEST(BoundModelTest, EvaluatesEveryChannelWithItsAmplitudes) {

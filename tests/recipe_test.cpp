@@ -78,6 +78,13 @@ TEST(RecipeTest, NoiseSigmaPatchAndQuantityMayBeLeftOut) {
   EXPECT_EQ(r.quantity, table::Quantity::brdf);
 }
 
+TEST(RecipeTest, MayTurnTheTangent) {
+  const Recipe r = parse_recipe(changed("\"alpha_x\"", "\"psi\": -0.5, \"alpha_x\""), "brass.json");
+  EXPECT_THAT(r.parameters.at("psi"), ElementsAre(-0.5));
+  EXPECT_TRUE(bind(r).model().has_free_frame());
+  EXPECT_FALSE(bind(parse_recipe(complete, "brass.json")).model().has_free_frame());
+}
+
 TEST(RecipeTest, SaysWhichFieldIsWrongAndWhatWasExpected) {
   struct Case {
     std::string text, part;
@@ -95,6 +102,12 @@ TEST(RecipeTest, SaysWhichFieldIsWrongAndWhatWasExpected) {
       {changed("0.05", "20"), "/parameters/alpha_x: found 20, outside the bounds"},
       {changed(", \"alpha_y\": 0.16", ""), "/parameters/alpha_y: missing"},
       {changed("alpha_y", "alpha_z"), "/parameters/alpha_z: not a parameter"},
+      {changed("\"alpha_x\"", "\"psi\": 30, \"alpha_x\""),
+       "/parameters/psi: found 30, outside the bounds of psi, expected -1.5707963267948966 to "
+       "1.5707963267948966, in rad"},
+      {changed("\"alpha_x\"", "\"psi_2\": 0.3, \"alpha_x\""),
+       "/parameters/psi_2: not a parameter of lambert+ward-aniso"},
+      {changed("ward-aniso", "lambert+ward-aniso+ward"), "/parameters/rho_s_2: missing"},
       {changed("[\"R\", \"G\"]", "[\"R\", \"R\"]"), "/channels: the channel 'R' stands twice"},
       {changed("[0, 45.5]", "[]"), "/incidence_angles_deg: found no angle"},
       {changed("[0, 45.5]", "[0, 90]"), "/incidence_angles_deg/1: found 90 degrees, expected 0 to"},

@@ -63,7 +63,12 @@ json example_material() {
       "interval95": [0.04, 0.06]}, "alpha_y": {"value": 0.16, "stddev": null,
       "interval95": null}}, "fit": {"metric": "cosine-l2", "loss": "none",
       "covariance": "residual", "samples": 9, "used": 8, "converged": true, "iterations": 7,
-      "errors": {"l2": 0.5}, "reduced_chi2": 1.25, "correlation_parameters": ["alpha_x"],
+      "errors": {"l2": 0.5}, "loss_scale": 0.02, "outliers": {"threshold": 0.1, "count": 2,
+      "listed": [{"sample": 0, "channel": "G", "residual": -0.5}]}, "held_out": {"errors":
+      {"l2": 0.6}, "folds": [{"theta_i_deg": [0, 20], "values": 4, "error": 0.25}]}, "aicc": -12.5,
+      "bic": -10, "nested": {"in": "lambert+ward-gmd-aniso", "test": "wald", "statistic": 1.5,
+      "p_value": 0.25, "text": "one roughness is enough"},
+      "reduced_chi2": 1.25, "correlation_parameters": ["alpha_x"],
       "correlation": [[1.0]], "warnings": ["w"]}, "provenance": {"table": "t.csv", "sha256": "",
       "gonio": "0.1.0", "command": "gonio fit t.csv"}})");
 }
@@ -96,6 +101,18 @@ TEST(MaterialSchema, AcceptsAMaterialWrittenByHand) {
   EXPECT_EQ(schema.complaint(m), "") << "the output of gonio fit --json is a material too";
 }
 
+TEST(MaterialSchema, AcceptsTwoLobesAndAFreeFrame) {
+  const Schema schema("material.schema.json");
+  const json m = json::parse(R"({"format": "gonio-material", "version": 1,
+      "model": "lambert+ward+ward-aniso", "channels": ["Y"], "parameters": {
+      "rho_d": {"value": 0.5}, "rho_s": {"value": 0.1}, "alpha": {"value": 0.3},
+      "rho_s_2": {"value": [0.2]}, "alpha_x_2": {"value": 0.1}, "alpha_y_2": {"value": 0.2},
+      "psi_2": {"value": -0.5, "stddev": 0.01, "interval95": [-0.52, -0.48]}}})");
+  EXPECT_EQ(schema.complaint(m), "");
+  const auto material = material::parse_material(m.dump(), "two lobes");
+  EXPECT_EQ(schema.complaint(json::parse(table::json_text(material::to_json(material)))), "");
+}
+
 TEST(MaterialSchema, RejectsWhatTheReaderRefuses) {
   const Schema schema("material.schema.json");
   const Break breaks[] = {
@@ -124,6 +141,31 @@ TEST(MaterialSchema, RejectsWhatTheReaderRefuses) {
       {"count", [](json& m) { m["fit"]["samples"] = -1; }},
       {"converged", [](json& m) { m["fit"]["converged"] = "yes"; }},
       {"warnings", [](json& m) { m["fit"]["warnings"] = "w"; }},
+      {"negative error", [](json& m) { m["fit"]["errors"]["l2"] = -0.5; }},
+      {"loss scale", [](json& m) { m["fit"]["loss_scale"] = 0; }},
+      {"no threshold", [](json& m) { m["fit"]["outliers"].erase("threshold"); }},
+      {"threshold", [](json& m) { m["fit"]["outliers"]["threshold"] = -1; }},
+      {"part of a count", [](json& m) { m["fit"]["outliers"]["count"] = 1.5; }},
+      {"sample", [](json& m) { m["fit"]["outliers"]["listed"][0]["sample"] = -1; }},
+      {"channel", [](json& m) { m["fit"]["outliers"]["listed"][0]["channel"] = 1; }},
+      {"residual", [](json& m) { m["fit"]["outliers"]["listed"][0].erase("residual"); }},
+      {"too many listed",
+       [](json& m) {
+         json& outliers = m["fit"]["outliers"];
+         outliers["count"] = 1001;
+         outliers["listed"] = json(1001, outliers["listed"][0]);
+       }},
+      {"no folds", [](json& m) { m["fit"]["held_out"].erase("folds"); }},
+      {"half a fold", [](json& m) { m["fit"]["held_out"]["folds"][0]["theta_i_deg"] = {0}; }},
+      {"fold below",
+       [](json& m) {
+         m["fit"]["held_out"]["folds"][0]["theta_i_deg"] = {0, 91};
+       }},
+      {"fold's error", [](json& m) { m["fit"]["held_out"]["folds"][0]["error"] = nullptr; }},
+      {"aicc", [](json& m) { m["fit"]["aicc"] = "-1"; }},
+      {"bic", [](json& m) { m["fit"]["bic"] = nullptr; }},
+      {"probability", [](json& m) { m["fit"]["nested"]["p_value"] = 1.5; }},
+      {"no statistic", [](json& m) { m["fit"]["nested"].erase("statistic"); }},
       {"provenance", [](json& m) { m["provenance"] = json::array(); }},
   };
   for (const Break& b : breaks) {
@@ -145,6 +187,13 @@ TEST(RecipeSchema, AcceptsEveryRecipeOfTheProject) {
     ++count;
   }
   EXPECT_GE(count, 10);
+}
+
+TEST(RecipeSchema, AcceptsATangentAngle) {
+  json recipe = example_recipe();
+  recipe["parameters"]["psi"] = -0.5;
+  EXPECT_EQ(Schema("recipe.schema.json").complaint(recipe), "");
+  EXPECT_NO_THROW(instrument::parse_recipe(recipe.dump(), "turned"));
 }
 
 TEST(RecipeSchema, RejectsWhatTheReaderRefuses) {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "apps/gonio/command.h"
 #include "brdf/bound_model.h"
+#include "brdf/free_frame.h"
 
 namespace gonio::app {
 namespace {
@@ -50,7 +52,10 @@ std::string wrapped(std::string_view text, std::size_t indent) {
 }
 
 std::string bound_text(double value) {
-  return std::isinf(value) ? std::string() : fmt::format("{}", value);
+  constexpr double quarter_turn = std::numbers::pi / 2;
+  if (std::isinf(value)) return "";
+  if (std::abs(value) == quarter_turn) return value < 0 ? "-pi/2" : "pi/2";
+  return fmt::format("{}", value);
 }
 
 std::string bounds_text(const brdf::Parameter& parameter) {
@@ -78,17 +83,42 @@ void print_list() {
   text += fmt::format("  {}\n\nModels and their parameters\n", symbols);
   for (const std::string& name : brdf::model_names()) text += model_row(name);
   text +=
-      "\nA model is diffuse, specular or diffuse+specular; a specular term alone brings its\n"
-      "author's diffuse term. 'gonio models MODEL' explains the parameters.\n";
+      "\nA model is diffuse, specular, diffuse+specular or diffuse+specular+specular; a specular "
+      "term\n"
+      "alone brings its author's diffuse term, a second one has parameters that end in _2. With\n"
+      "--free-frame every anisotropic term has the tangent's angle psi besides. 'gonio models "
+      "MODEL'\n"
+      "explains the parameters.\n";
   print(text);
+}
+
+/// The parameters that --free-frame adds to the model.
+std::vector<brdf::ModelParameter> free_frame_parameters(const brdf::Model& model) {
+  std::vector<brdf::ModelParameter> angles;
+  for (const auto& p : brdf::Model(model.name(), brdf::Frame::free).shape()) {
+    if (p.descriptor.name == brdf::tangent_angle.name) angles.push_back(p);
+  }
+  return angles;
+}
+
+/// "wi, wo" and the shape of one term, by its place in the model.
+std::string arguments(const brdf::Model& model, std::size_t term) {
+  std::string text = "wi, wo";
+  std::string_view separator = "; ";
+  for (const brdf::ModelParameter& p : model.shape()) {
+    if (p.term != term) continue;
+    text += fmt::format("{}{}", separator, p.name);
+    separator = ", ";
+  }
+  return text;
 }
 
 std::string formula(const brdf::Model& model) {
   std::string sum;
   for (const brdf::ModelParameter& amplitude : model.amplitudes()) {
     if (!sum.empty()) sum += " + ";
-    const auto& term = model.terms()[amplitude.term]->description;
-    sum += fmt::format("{} {}(wi, wo)", amplitude.name, term.name);
+    sum += fmt::format("{} {}({})", amplitude.name, model.terms()[amplitude.term]->description.name,
+                       arguments(model, amplitude.term));
   }
   return sum;
 }
@@ -100,23 +130,40 @@ std::string term_paragraph(const brdf::TermDescription& term) {
   return text + fmt::format("  {}\n", wrapped(term.source, 2));
 }
 
-std::string parameter_row(const brdf::OrderedParameter& p) {
-  const brdf::Parameter& descriptor = p.parameter->descriptor;
+std::string parameter_row(const brdf::ModelParameter& parameter, bool per_channel) {
+  const brdf::Parameter& descriptor = parameter.descriptor;
   const std::string head =
-      fmt::format("  {:<9} {:<5} {:<10} {:<12} ", p.parameter->name, descriptor.unit,
-                  bounds_text(descriptor), p.per_channel ? "per channel" : "shared");
+      fmt::format("  {:<9} {:<5} {:<11} {:<12} ", parameter.name, descriptor.unit,
+                  bounds_text(descriptor), per_channel ? "per channel" : "shared");
   const std::string indent(head.size(), ' ');
   return fmt::format("{}{}\n{}({})\n", head, wrapped(descriptor.meaning, head.size()), indent,
                      wrapped(descriptor.source, head.size()));
 }
 
+/// The model's terms, one that stands twice only once.
+std::vector<const brdf::TermEntry*> distinct_terms(const brdf::Model& model) {
+  std::vector<const brdf::TermEntry*> distinct;
+  for (const brdf::TermEntry* term : model.terms()) {
+    if (std::find(distinct.begin(), distinct.end(), term) == distinct.end()) {
+      distinct.push_back(term);
+    }
+  }
+  return distinct;
+}
+
 void print_model(const brdf::Model& model) {
   std::string text =
       fmt::format("{}\n  f_r = {}, in 1/sr\n", model.name(), wrapped(formula(model), 8));
-  for (const brdf::TermEntry* term : model.terms()) text += term_paragraph(term->description);
-  text += fmt::format("\n  {:<9} {:<5} {:<10} {:<12} {}\n", "parameter", "unit", "bounds", "values",
+  for (const brdf::TermEntry* term : distinct_terms(model)) {
+    text += term_paragraph(term->description);
+  }
+  text += fmt::format("\n  {:<9} {:<5} {:<11} {:<12} {}\n", "parameter", "unit", "bounds", "values",
                       "meaning (source)");
-  for (const auto& p : brdf::ordered_parameters(model)) text += parameter_row(p);
+  for (const auto& p : brdf::ordered_parameters(model)) {
+    text += parameter_row(*p.parameter, p.per_channel);
+  }
+  if (model.is_anisotropic()) text += "\n  with --free-frame\n";
+  for (const auto& p : free_frame_parameters(model)) text += parameter_row(p, false);
   print(text);
 }
 
@@ -134,14 +181,15 @@ ordered_json bound_json(double bound) {
   return std::isinf(bound) ? ordered_json() : ordered_json(bound);
 }
 
-ordered_json json_of(const brdf::Model& model, const brdf::OrderedParameter& p) {
-  const brdf::Parameter& descriptor = p.parameter->descriptor;
-  return {{"name", p.parameter->name},
-          {"term", model.terms()[p.parameter->term]->description.name},
+ordered_json json_of(const brdf::Model& model, const brdf::ModelParameter& parameter,
+                     bool per_channel) {
+  const brdf::Parameter& descriptor = parameter.descriptor;
+  return {{"name", parameter.name},
+          {"term", model.terms()[parameter.term]->description.name},
           {"unit", descriptor.unit},
           {"lower", bound_json(descriptor.lower)},
           {"upper", bound_json(descriptor.upper)},
-          {"per_channel", p.per_channel},
+          {"per_channel", per_channel},
           {"meaning", descriptor.meaning},
           {"source", descriptor.source}};
 }
@@ -150,8 +198,17 @@ ordered_json json_of(const brdf::Model& model) {
   ordered_json terms = ordered_json::array();
   for (const brdf::TermEntry* term : model.terms()) terms.push_back(json_of(term->description));
   ordered_json parameters = ordered_json::array();
-  for (const auto& p : brdf::ordered_parameters(model)) parameters.push_back(json_of(model, p));
-  return {{"model", model.name()}, {"terms", terms}, {"parameters", parameters}};
+  for (const auto& p : brdf::ordered_parameters(model)) {
+    parameters.push_back(json_of(model, *p.parameter, p.per_channel));
+  }
+  ordered_json free_frame = ordered_json::array();
+  for (const auto& p : free_frame_parameters(model)) {
+    free_frame.push_back(json_of(model, p, false));
+  }
+  return {{"model", model.name()},
+          {"terms", terms},
+          {"parameters", parameters},
+          {"free_frame_parameters", free_frame}};
 }
 
 ordered_json json_of_all() {
