@@ -8,19 +8,32 @@
 #include <vector>
 
 #include "brdf/model.h"
+#include "brdf/pack.h"
 
 namespace gonio::fit {
 
 /// Rows that are evaluated and compressed at a time: small enough for the first-level caches.
 inline constexpr std::size_t chunk_rows = 512;
+/// The rows that matrices of a chunk have: columns a page apart would compete for the same lines of
+/// the cache.
+inline constexpr Eigen::Index column_stride = Eigen::Index(chunk_rows) + 8;
 
-/// Up to chunk_rows pairs of directions.
+/// Up to chunk_rows pairs of directions. Whole packs are evaluated: the rows from count on to the
+/// end of the last pack hold directions too.
 struct DirectionChunk {
   std::size_t count = 0;
   alignas(64) std::array<double, chunk_rows> wi_x, wi_y, wi_z, wo_x, wo_y, wo_z;
 
-  brdf::Direction<double> wi(std::size_t i) const { return {wi_x[i], wi_y[i], wi_z[i]}; }
-  brdf::Direction<double> wo(std::size_t i) const { return {wo_x[i], wo_y[i], wo_z[i]}; }
+  brdf::Direction<brdf::Pack> wi(std::size_t first) const {
+    return {brdf::Pack::load(&wi_x[first]), brdf::Pack::load(&wi_y[first]),
+            brdf::Pack::load(&wi_z[first])};
+  }
+  brdf::Direction<brdf::Pack> wo(std::size_t first) const {
+    return {brdf::Pack::load(&wo_x[first]), brdf::Pack::load(&wo_y[first]),
+            brdf::Pack::load(&wo_z[first])};
+  }
+  /// Completes the last pack with the surface normal.
+  void pad();
 };
 
 /// Evaluates into columns: first the basis functions, one per amplitude of the model, then each
@@ -43,7 +56,8 @@ class BatchModel {
     return amplitude_count() + (with_derivatives ? derivatives_.size() : 0);
   }
 
-  /// Writes the first chunk.count rows of the first column_count() columns of `columns`.
+  /// Writes the first chunk.count rows, and those of its padding, of the first column_count()
+  /// columns of `columns`, which has to have column_stride rows.
   void evaluate(const DirectionChunk& chunk, std::span<const double> shape, bool with_derivatives,
                 Eigen::Ref<Eigen::MatrixXd> columns) const;
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "fit/weighted_samples.h"
@@ -21,20 +22,22 @@ struct PassOptions {
 };
 
 /// Folds every chunk into a state: make_state() begins a task, fold(chunk, state) adds a chunk that
-/// is not empty. A task is a fixed number of consecutive chunks, so that the order of all sums is
-/// fixed. Returns the tasks' states in the table's order, at least one.
-template <class MakeState, class Fold>
+/// is not empty, result_of(state) is what remains of it. A task is a fixed number of consecutive
+/// chunks, so that the order of all sums is fixed. Returns the tasks' results in the table's order,
+/// at least one.
+template <class MakeState, class Fold, class ResultOf>
 auto chunk_pass(const WeightedSamples& samples, const PassOptions& options,
-                const MakeState& make_state, const Fold& fold) {
+                const MakeState& make_state, const Fold& fold, const ResultOf& result_of) {
   constexpr std::size_t chunks_per_task = 8;
   using State = decltype(make_state());
+  using Result = decltype(result_of(std::declval<State&>()));
   const std::size_t chunks = samples.chunk_count();
   const std::size_t tasks =
       std::max<std::size_t>((chunks + chunks_per_task - 1) / chunks_per_task, 1);
   const std::function<void(double)> on_share = options.on_pass ? options.on_pass() : nullptr;
   std::mutex share_mutex;
   std::size_t done = 0;
-  std::vector<std::optional<State>> results(tasks);
+  std::vector<std::optional<Result>> optional_results(tasks);
   table::parallel_for(tasks, options.threads, [&](std::size_t task) {
     State state = make_state();
     SampleChunk chunk(samples.channel_count());
@@ -43,16 +46,16 @@ auto chunk_pass(const WeightedSamples& samples, const PassOptions& options,
       samples.gather(i, chunk);
       if (chunk.directions.count > 0) fold(chunk, state);
     }
-    results[task] = std::move(state);
+    optional_results[task].emplace(result_of(state));
     if (on_share) {
       const std::lock_guard lock(share_mutex);
       on_share(double(++done) / double(tasks));
     }
   });
-  std::vector<State> states;
-  states.reserve(tasks);
-  for (std::optional<State>& state : results) states.push_back(std::move(*state));
-  return states;
+  std::vector<Result> results;
+  results.reserve(tasks);
+  for (std::optional<Result>& result : optional_results) results.push_back(std::move(*result));
+  return results;
 }
 
 }  // namespace gonio::fit

@@ -8,8 +8,10 @@
 #include <stdexcept>
 
 #include "fit/diagnose.h"
+#include "fit/robust_scale.h"
 #include "fit/search.h"
 #include "fit/solve.h"
+#include "fit/subset.h"
 #include "fit/weighted_samples.h"
 #include "table/file_error.h"
 
@@ -18,8 +20,11 @@ namespace {
 
 /// Samples that the start is searched on: enough for every basin, few enough to be scanned.
 constexpr std::size_t subset_samples = 2048;
-/// Rounds of fitting and renewing sigma from the fitted model.
-constexpr int most_noise_rounds = 10;
+/// Rounds of fitting and renewing sigma, or the loss' scale, from the fitted model.
+constexpr int most_rounds = 20;
+/// Standard deviations beyond which a residual is listed as an outlier: of 10 million normal ones
+/// six are.
+constexpr double outlier_deviations = 5;
 
 /// Counts the passes over the whole table and passes their progress on.
 class PassCounter {
@@ -44,33 +49,17 @@ class PassCounter {
 };
 
 /// Throws if there are fewer values than unknowns.
-void require_enough_values(const WeightedSamples& samples, std::span<const Unknown> unknowns) {
-  const auto free_count = std::size_t(
-      std::count_if(unknowns.begin(), unknowns.end(), [](const Unknown& u) { return !u.fixed; }));
-  if (samples.used_values() < free_count) {
+void require_enough_values(const table::SampleTable& table, const Survey& survey,
+                           std::span<const Unknown> unknowns) {
+  const auto free_count = std::size_t(std::count_if(
+      unknowns.begin(), unknowns.end(), [](const Unknown& u) { return !u.fixed && !u.dependent; }));
+  if (survey.used_values < free_count) {
     throw table::FileError(
         fmt::format("{}: {} measured values in {} samples are left for {} unknowns; a fit needs "
                     "more samples than unknowns: fix some (--fix), take a simpler model, or raise "
                     "--max-theta",
-                    samples.table().provenance.path, samples.used_values(), samples.used_samples(),
-                    free_count));
+                    table.provenance.path, survey.used_values, survey.used_samples, free_count));
   }
-}
-
-/// Throws if the values are so large or so small that their squares leave the range of double.
-void require_representable_squares(const table::SampleTable& table,
-                                   const table::SampleFilter& filter) {
-  double largest = 0;
-  for (const std::vector<double>& channel : table.values) {
-    for (std::size_t i = 0; i < table.size(); ++i) {
-      if (!std::isnan(channel[i]) && filter(i)) largest = std::max(largest, std::abs(channel[i]));
-    }
-  }
-  if (largest == 0 || (largest > 1e-100 && largest < 1e100)) return;
-  throw table::FileError(
-      fmt::format("{}: the largest magnitude of f_r is {:.3g} 1/sr, which no material has; values "
-                  "between 1e-100 and 1e100 can be fitted: check the table's unit and quantity",
-                  table.provenance.path, largest));
 }
 
 void check_options(const Options& options) {
@@ -78,6 +67,22 @@ void check_options(const Options& options) {
     throw std::invalid_argument(
         "covariance known-sigma needs residuals in units of sigma: choose metric chi2, or the "
         "residual or sandwich covariance");
+  }
+  if (options.loss != Loss::none && options.covariance != Covariance::automatic &&
+      options.covariance != Covariance::sandwich) {
+    throw std::invalid_argument(fmt::format(
+        "covariance {} supposes normal residuals, which the loss {} does not: the sandwich "
+        "covariance holds for it",
+        name(options.covariance), name(options.loss)));
+  }
+  if (options.loss_scale) {
+    if (options.loss == Loss::none) {
+      throw std::invalid_argument("a loss scale needs a loss: huber, cauchy or tukey");
+    }
+    if (!(std::isfinite(*options.loss_scale) && *options.loss_scale > 0)) {
+      throw std::invalid_argument(
+          fmt::format("loss scale {}: a finite number above 0 is needed", *options.loss_scale));
+    }
   }
   if (!options.noise) return;
   const Noise& noise = *options.noise;
@@ -89,17 +94,6 @@ void check_options(const Options& options) {
   }
 }
 
-Solution best_solution(const WeightedSamples& samples, const BatchModel& model, const Box& box,
-                       std::span<const Start> starts, const PassOptions& passes) {
-  std::optional<Solution> best;
-  for (const Start& start : starts) {
-    Solution solution = solve(samples, model, box, start.shape, passes);
-    solution.iterations += start.iterations;
-    if (!best || solution.cost < best->cost) best = std::move(solution);
-  }
-  return std::move(*best);
-}
-
 bool nearly_equal(const ParameterValues& a, const ParameterValues& b) {
   constexpr double tolerance = 1e-9;
   for (std::size_t j = 0; j < a.shape.size(); ++j) {
@@ -108,12 +102,85 @@ bool nearly_equal(const ParameterValues& a, const ParameterValues& b) {
   return (a.amplitudes - b.amplitudes).norm() <= tolerance * b.amplitudes.norm();
 }
 
-/// The metric's own root mean square; in units of sigma for chi2.
-double metric_error_of(const FitResult& result) {
-  for (const auto& [metric, error] : result.errors) {
-    if (metric == name(result.metric)) return error;
+/// What a solution needs besides the samples.
+struct Problem {
+  const BatchModel& model;
+  const Box& box;
+  const Options& options;
+  const PassOptions& passes;
+};
+
+Solution best_of(const WeightedSamples& samples, const Problem& problem, const ScaledLoss& loss,
+                 std::span<const Start> starts) {
+  std::optional<Solution> best;
+  for (const Start& start : starts) {
+    Solution solution =
+        solve(samples, problem.model, problem.box, loss, start.values, problem.passes);
+    solution.iterations += start.iterations;
+    if (!best || solution.cost < best->cost) best = std::move(solution);
   }
-  return std::sqrt(2 * result.cost / double(result.used_values));
+  return std::move(*best);
+}
+
+Solution solved_again(const WeightedSamples& samples, const Problem& problem,
+                      const ScaledLoss& loss, const Solution& before) {
+  Solution solution =
+      solve(samples, problem.model, problem.box, loss, before.values, problem.passes);
+  solution.iterations += before.iterations;
+  return solution;
+}
+
+/// The scale follows from the residuals, and they from the scale: a few rounds settle both.
+Solution solve_with_found_scale(const WeightedSamples& samples, const Problem& problem,
+                                std::span<const Start> starts, ScaledLoss& loss) {
+  constexpr double tolerance = 1e-6;
+  const double least = least_deviation(samples, problem.passes);
+  double deviation = 0;
+  const auto scale_at = [&](const ParameterValues& values) {
+    deviation = std::max(
+        robust_deviation(samples, problem.model, values, deviation, problem.passes), least);
+    return efficient_scale(loss.loss) * deviation;
+  };
+  loss.scale = scale_at(starts.front().values);
+  Solution solution = best_of(samples, problem, loss, starts);
+  bool settled = false;
+  for (int round = 0; round < most_rounds && !settled; ++round) {
+    const double scale = scale_at(solution.values);
+    settled = std::abs(scale - loss.scale) <= tolerance * scale;
+    if (settled) break;
+    loss.scale = scale;
+    solution = solved_again(samples, problem, loss, solution);
+  }
+  solution.converged = solution.converged && settled;
+  return solution;
+}
+
+/// sigma depends on the model, and the model on sigma: a few rounds settle both. `samples` are left
+/// with the sigma of `reference`.
+void settle_noise(const table::SampleTable& table, const Problem& problem, const ScaledLoss& loss,
+                  std::optional<WeightedSamples>& samples, ParameterValues& reference,
+                  Solution& solution) {
+  const Survey survey = samples->survey();
+  bool settled = false;
+  for (int round = 0; round < most_rounds && !settled; ++round) {
+    reference = solution.values;
+    samples.emplace(table, problem.model, problem.options, survey, std::span<const double>(),
+                    &reference);
+    solution = solved_again(*samples, problem, loss, solution);
+    settled = nearly_equal(reference, solution.values);
+  }
+  solution.converged = solution.converged && settled;
+}
+
+/// The criteria of models of one table, from -2 ln of the likelihood.
+void add_criteria(const Assessment& assessment, const Identifiability& identifiability,
+                  const WeightedSamples& samples, FitResult& result) {
+  if (result.metric != Metric::chi2 || result.loss != Loss::none || samples.has_weight()) return;
+  const double k = double(identifiability.rank());
+  const double n = double(result.used_values);
+  const double deviance = 2 * result.cost + assessment.log_variance;
+  result.bic = deviance + k * std::log(n);
+  if (n > k + 1) result.aicc = deviance + 2 * k + 2 * k * (k + 1) / (n - k - 1);
 }
 
 }  // namespace
@@ -121,55 +188,66 @@ double metric_error_of(const FitResult& result) {
 FitResult fit(const brdf::Model& model, const table::SampleTable& table, const Options& options) {
   const BatchModel batch(model);
   check_options(options);
-  std::vector<Unknown> unknowns = unknowns_of(model, table.channels);
   const Box box = box_of(model, table.channels, options);
-  for (Unknown& unknown : unknowns) unknown.fixed = box.is_fixed(unknown);
+  std::vector<Unknown> unknowns = unknowns_of(model, table.channels);
+  mark_unknowns(box, unknowns);
   PassCounter passes(options.threads, options.progress);
+  const Problem problem{batch, box, options, passes.options()};
 
-  std::optional<WeightedSamples> samples(std::in_place, table, batch, options);
-  require_enough_values(*samples, unknowns);
-  require_representable_squares(table, samples->filter());
+  const table::SampleFilter filter(table, options.max_theta_deg, options.incidence);
+  const Survey survey = survey_of(table, filter, options.threads);
+  require_enough_values(table, survey, unknowns);
+  const std::vector<double> floors = relative_floors(table, filter, options.threads);
+  std::optional<WeightedSamples> samples(std::in_place, table, batch, options, survey, floors);
   const table::SampleTable subset =
-      representative_subset(table, samples->filter(), samples->used_samples(), subset_samples);
-  const std::vector<Start> starts = search_starts(subset, batch, box, options);
-  Solution solution = best_solution(*samples, batch, box, starts, passes.options());
+      representative_subset(table, filter, survey.used_samples, subset_samples, options.threads);
+  const std::vector<Start> starts = search_starts(subset, batch, box, options, floors);
 
-  // sigma depends on the model, and the model on sigma: a few rounds settle both.
+  ScaledLoss loss{options.loss, options.loss_scale.value_or(1)};
+  Solution solution = options.loss != Loss::none && !options.loss_scale
+                          ? solve_with_found_scale(*samples, problem, starts, loss)
+                          : best_of(*samples, problem, loss, starts);
   ParameterValues reference;
   if (options.metric == Metric::chi2 && options.noise && options.noise->relative > 0) {
-    bool settled = false;
-    for (int round = 0; round < most_noise_rounds && !settled; ++round) {
-      reference = solution.values;
-      samples.emplace(table, batch, options, &reference);
-      const int iterations = solution.iterations;
-      solution = solve(*samples, batch, box, reference.shape, passes.options());
-      solution.iterations += iterations;
-      settled = nearly_equal(reference, solution.values);
-    }
-    solution.converged = solution.converged && settled;
+    settle_noise(table, problem, loss, samples, reference, solution);
   }
 
-  const Identifiability identifiability(solution.compressed, batch, box, solution.values, unknowns);
-  FitResult result{
-      .model = model,
-      .channels = table.channels,
-      .metric = options.metric,
-      .unknowns = unknowns,
-      .values = solution.values,
-      .uncertainty = uncertainty_of(solution, identifiability, *samples, batch, box, unknowns,
-                                    options, passes.options()),
-      .cost = solution.cost,
-      .metric_error = 0,
-      .errors = errors_of(table, options.max_theta_deg, batch, solution.values, passes.options()),
-      .samples = table.size(),
-      .used = samples->used_samples(),
-      .used_values = samples->used_values(),
-      .converged = solution.converged,
-      .iterations = solution.iterations,
-      .passes = 0,
-      .warnings = {}};
-  result.metric_error = metric_error_of(result);
-  result.passes = passes.count();
+  const Identifiability identifiability(solution.system, model, box, solution.values, unknowns);
+  Uncertainty uncertainty = uncertainty_kind(solution, identifiability, *samples, options);
+  AssessmentOptions assessment_options{.loss = loss,
+                                       .scores = uncertainty.kind == Covariance::sandwich};
+  if (options.loss != Loss::none) {
+    assessment_options.outlier_threshold =
+        outlier_deviations * loss.scale / efficient_scale(options.loss);
+  }
+  Assessment assessment = assess(*samples, batch, solution.values, unknowns, floors,
+                                 assessment_options, passes.options());
+  complete_uncertainty(solution, identifiability, *samples, box, unknowns, assessment, uncertainty);
+
+  FitResult result{.model = model,
+                   .channels = table.channels,
+                   .metric = options.metric,
+                   .loss = options.loss,
+                   .loss_scale = options.loss == Loss::none ? 0 : loss.scale,
+                   .unknowns = unknowns,
+                   .values = solution.values,
+                   .uncertainty = std::move(uncertainty),
+                   .cost = solution.cost,
+                   .metric_error = assessment.metric_error,
+                   .errors = std::move(assessment.errors),
+                   .outlier_threshold = assessment_options.outlier_threshold,
+                   .outlier_count = assessment.outlier_count,
+                   .outliers = std::move(assessment.outliers),
+                   .aicc = {},
+                   .bic = {},
+                   .samples = table.size(),
+                   .used = survey.used_samples,
+                   .used_values = survey.used_values,
+                   .converged = solution.converged,
+                   .iterations = solution.iterations,
+                   .passes = passes.count(),
+                   .warnings = {}};
+  add_criteria(assessment, identifiability, *samples, result);
   result.warnings = diagnose(result, box, identifiability);
   return result;
 }

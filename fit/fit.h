@@ -8,12 +8,12 @@
 // constant.
 #pragma once
 
-#include <span>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "brdf/model.h"
-#include "fit/errors.h"
+#include "fit/assessment.h"
 #include "fit/options.h"
 #include "fit/parameters.h"
 #include "fit/uncertainty.h"
@@ -25,15 +25,29 @@ struct FitResult {
   brdf::Model model;
   std::vector<std::string> channels;
   Metric metric;
+  Loss loss;
+  /// Given, or found from the residuals; in the metric's unit. 0 without a robust loss.
+  double loss_scale;
   /// All the unknowns in a row; `uncertainty` is indexed like it.
   std::vector<Unknown> unknowns;
   ParameterValues values;
   Uncertainty uncertainty;
-  /// Half the weighted sum of squared residuals under the metric.
+  /// Half the weighted sum of squared residuals under the metric, or of what the loss makes of
+  /// them.
   double cost;
-  /// Root mean square of the residuals under the metric, weighted.
+  /// Root mean square of the residuals under the metric, weighted by the table and by the loss.
   double metric_error;
   ErrorList errors;
+  /// With a robust loss: the values beyond outlier_threshold (5 standard deviations, as the median
+  /// magnitude of the residuals tells them), the worst first; outlier_count may be more than are
+  /// listed.
+  double outlier_threshold;
+  std::size_t outlier_count;
+  std::vector<Outlier> outliers;
+  /// Akaike's criterion with the correction for few values (Hurvich & Tsai 1989) and Schwarz's, of
+  /// normal residuals with the known sigma; only under chi2, without a loss and weights.
+  std::optional<double> aicc;
+  std::optional<double> bic;
   std::size_t samples;  // in the table
   std::size_t used;
   std::size_t used_values;  // over all channels

@@ -49,6 +49,46 @@ double& upper_of(Box& box, const Unknown& u) {
                     : box.amplitude_upper(Eigen::Index(u.index), Eigen::Index(u.channel));
 }
 
+AmplitudeSpace all_free(Eigen::Index count) {
+  AmplitudeSpace space{{}, Eigen::MatrixXd::Identity(count, count), Eigen::VectorXd::Zero(count)};
+  for (Eigen::Index k = 0; k < count; ++k) space.free.push_back(k);
+  return space;
+}
+
+/// rho_s = 1 - rho_d: the bounds of both become those that both allow.
+void make_homogeneous(const brdf::Model& model, Box& box) {
+  const auto amplitudes = model.amplitudes();
+  const auto index_of = [&](std::string_view name) {
+    const auto found = std::find_if(amplitudes.begin(), amplitudes.end(),
+                                    [&](const brdf::ModelParameter& p) { return p.name == name; });
+    return found == amplitudes.end() ? Eigen::Index(-1) : found - amplitudes.begin();
+  };
+  const Eigen::Index d = index_of("rho_d");
+  const Eigen::Index s = index_of("rho_s");
+  if (amplitudes.size() != 2 || d < 0 || s < 0) {
+    throw std::invalid_argument(
+        fmt::format("homogeneous: rho_s = 1 - rho_d needs a model with one rho_d and one rho_s; {} "
+                    "is not one",
+                    model.name()));
+  }
+  for (Eigen::Index c = 0; c < box.amplitude_lower.cols(); ++c) {
+    double& lower = box.amplitude_lower(d, c);
+    double& upper = box.amplitude_upper(d, c);
+    lower = std::max(lower, 1 - box.amplitude_upper(s, c));
+    upper = std::min(upper, 1 - box.amplitude_lower(s, c));
+    if (!(lower <= upper)) {
+      throw std::invalid_argument(
+          "homogeneous: the bounds of rho_d and rho_s leave no rho_s = 1 - rho_d");
+    }
+    box.amplitude_lower(s, c) = 1 - upper;
+    box.amplitude_upper(s, c) = 1 - lower;
+  }
+  box.amplitudes = {{d}, Eigen::MatrixXd::Zero(2, 1), Eigen::VectorXd::Zero(2)};
+  box.amplitudes.map(d, 0) = 1;
+  box.amplitudes.map(s, 0) = -1;
+  box.amplitudes.offset[s] = 1;
+}
+
 void require_inside(const Box& box, const Unknown& u, double value, std::string_view what) {
   if (std::isfinite(value) && value >= box.lower(u) && value <= box.upper(u)) return;
   throw std::invalid_argument(fmt::format("{} {}={}: outside the bounds {} to {}", what, u.name,
@@ -62,11 +102,11 @@ std::vector<Unknown> unknowns_of(const brdf::Model& model, std::span<const std::
   for (const brdf::OrderedParameter& ordered : brdf::ordered_parameters(model)) {
     const std::string& name = ordered.parameter->name;
     if (!ordered.per_channel) {
-      unknowns.push_back({name, name, true, ordered.index, 0, false});
+      unknowns.push_back({name, name, true, ordered.index, 0});
       continue;
     }
     for (std::size_t c = 0; c < channels.size(); ++c) {
-      unknowns.push_back({name + "." + channels[c], name, false, ordered.index, c, false});
+      unknowns.push_back({name + "." + channels[c], name, false, ordered.index, c});
     }
   }
   return unknowns;
@@ -136,12 +176,23 @@ Box box_of(const brdf::Model& model, std::span<const std::string> channels,
       upper_of(box, u) = setting.value;
     }
   }
+  box.amplitudes = all_free(amplitude_count);
+  if (options.homogeneous) make_homogeneous(model, box);
   for (const ParameterSetting& setting : options.start) {
     for (const Unknown& u : matching(unknowns, setting.parameter, model)) {
       require_inside(box, u, setting.value, "start");
     }
   }
   return box;
+}
+
+void mark_unknowns(const Box& box, std::vector<Unknown>& unknowns) {
+  const auto& free = box.amplitudes.free;
+  for (Unknown& unknown : unknowns) {
+    unknown.fixed = box.is_fixed(unknown);
+    unknown.dependent = !unknown.is_shape && std::find(free.begin(), free.end(),
+                                                       Eigen::Index(unknown.index)) == free.end();
+  }
 }
 
 }  // namespace gonio::fit

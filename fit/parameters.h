@@ -21,6 +21,8 @@ struct Unknown {
   std::size_t index;    // among model.shape() or model.amplitudes()
   std::size_t channel;  // of an amplitude
   bool fixed = false;   // set by fit()
+  /// Set by fit(): follows from another unknown (rho_s = 1 - rho_d).
+  bool dependent = false;
 };
 
 std::vector<Unknown> unknowns_of(const brdf::Model& model, std::span<const std::string> channels);
@@ -37,19 +39,31 @@ struct ParameterValues {
   double operator[](const Unknown& unknown) const;
 };
 
+/// The amplitudes of a channel as functions of those that are free: offset + map * free.
+struct AmplitudeSpace {
+  std::vector<Eigen::Index> free;  // indices into the amplitudes
+  Eigen::MatrixXd map;             // [amplitude, free]
+  Eigen::VectorXd offset;          // [amplitude]
+};
+
 /// The closed box that the unknowns are confined to; lower = upper where one is fixed.
 struct Box {
   std::vector<double> shape_lower, shape_upper;
   Eigen::MatrixXd amplitude_lower, amplitude_upper;
+  AmplitudeSpace amplitudes;
 
   bool is_fixed(const Unknown& unknown) const;
   double lower(const Unknown& unknown) const;
   double upper(const Unknown& unknown) const;
 };
 
-/// The model's own bounds, narrowed by options.bounds and options.fixed. Throws
-/// std::invalid_argument for a parameter that the model has not, a value outside the bounds, or
-/// bounds that leave nothing.
+/// The model's own bounds, narrowed by options.bounds and options.fixed, and what
+/// options.homogeneous makes of the amplitudes. Throws std::invalid_argument for a parameter that
+/// the model has not, a value outside the bounds, bounds that leave nothing, or a homogeneous model
+/// whose amplitudes are not one rho_d and one rho_s.
 Box box_of(const brdf::Model& model, std::span<const std::string> channels, const Options& options);
+
+/// Says of each unknown whether the box fixes it, or whether it depends on another one.
+void mark_unknowns(const Box& box, std::vector<Unknown>& unknowns);
 
 }  // namespace gonio::fit

@@ -104,58 +104,93 @@ Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& matrix, const Eigen
   return best;
 }
 
+LinearSystem linear_system_of(const Compressed& compressed, const BatchModel& model,
+                              const Eigen::MatrixXd& amplitudes) {
+  const Eigen::Index rows = compressed.projected.rows();
+  const Eigen::Index amplitude_count = amplitudes.rows();
+  LinearSystem system(std::size_t(amplitudes.cols()));
+  for (Eigen::Index c = 0; c < amplitudes.cols(); ++c) {
+    const Eigen::MatrixXd& factor = compressed.factor(c);
+    ChannelSystem& channel = system[std::size_t(c)];
+    channel.amplitude_jacobian.setZero(rows + 1, amplitude_count);
+    channel.amplitude_jacobian.topRows(rows) = factor.leftCols(amplitude_count);
+    channel.residuals.resize(rows + 1);
+    channel.residuals.head(rows) =
+        factor.leftCols(amplitude_count) * amplitudes.col(c) - compressed.projected.col(c);
+    channel.residuals[rows] = compressed.unreachable[c];
+    channel.shape_jacobian.setZero(rows + 1, Eigen::Index(model.shape_count()));
+    const auto derivatives = model.derivatives();
+    for (std::size_t d = 0; d < derivatives.size(); ++d) {
+      channel.shape_jacobian.col(Eigen::Index(derivatives[d].shape)).head(rows) +=
+          amplitudes(Eigen::Index(derivatives[d].amplitude), c) *
+          factor.col(amplitude_count + Eigen::Index(d));
+    }
+  }
+  return system;
+}
+
+namespace {
+
+/// Takes out of the Jacobian what the columns reach: the amplitudes that can move follow the shape.
+void project_out(const Eigen::MatrixXd& columns, Eigen::MatrixXd& jacobian) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(rank_threshold);
+  qr.compute(columns);
+  auto top = jacobian.topRows(columns.rows());
+  const Eigen::MatrixXd reached = columns * qr.solve(Eigen::MatrixXd(top));
+  top -= reached;
+}
+
+}  // namespace
+
 Projected project(const Compressed& compressed, const BatchModel& model, const Box& box,
                   bool with_jacobian) {
   const Eigen::Index channels = compressed.projected.cols();
   const Eigen::Index rows = compressed.projected.rows();
   const auto amplitude_count = Eigen::Index(model.amplitude_count());
-  const auto derivatives = model.derivatives();
+  const AmplitudeSpace& space = box.amplitudes;
 
   Projected result;
   result.amplitudes.resize(amplitude_count, channels);
-  result.residuals.resize(channels * (rows + 1));
-  if (with_jacobian) {
-    result.jacobian.setZero(result.residuals.size(), Eigen::Index(model.shape_count()));
-  }
   for (Eigen::Index c = 0; c < channels; ++c) {
-    const Eigen::MatrixXd& factor = compressed.factor(c);
-    const Eigen::VectorXd lower = box.amplitude_lower.col(c);
-    const Eigen::VectorXd upper = box.amplitude_upper.col(c);
     // Below the first amplitude_count rows the triangle's basis columns are 0.
-    const Eigen::MatrixXd basis = factor.topLeftCorner(amplitude_count, amplitude_count);
-    const Eigen::VectorXd beta = bounded_least_squares(
-        basis, compressed.projected.col(c).head(amplitude_count), lower, upper);
-    result.amplitudes.col(c) = beta;
-    const Eigen::Index first = c * (rows + 1);
-    result.residuals.segment(first, rows) = compressed.projected.col(c);
-    result.residuals.segment(first, amplitude_count) -= basis * beta;
-    result.residuals[first + rows] = compressed.unreachable[c];
-    if (!with_jacobian) continue;
+    const Eigen::MatrixXd basis =
+        compressed.factor(c).topLeftCorner(amplitude_count, amplitude_count);
+    const Eigen::VectorXd lower = box.amplitude_lower(space.free, c);
+    const Eigen::VectorXd upper = box.amplitude_upper(space.free, c);
+    const Eigen::VectorXd values =
+        compressed.projected.col(c).head(amplitude_count) - basis * space.offset;
+    const Eigen::VectorXd free = bounded_least_squares(basis * space.map, values, lower, upper);
+    result.amplitudes.col(c) = space.offset + space.map * free;
+    if (with_jacobian) continue;
+    ChannelSystem channel;
+    channel.residuals.resize(rows + 1);
+    channel.residuals.head(rows) = -compressed.projected.col(c);
+    channel.residuals.head(amplitude_count) += basis * result.amplitudes.col(c);
+    channel.residuals[rows] = compressed.unreachable[c];
+    result.system.push_back(std::move(channel));
+  }
+  if (!with_jacobian) return result;
 
-    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows, Eigen::Index(model.shape_count()));
-    for (std::size_t d = 0; d < derivatives.size(); ++d) {
-      jacobian.col(Eigen::Index(derivatives[d].shape)) -=
-          factor.col(amplitude_count + Eigen::Index(d)) *
-          beta[Eigen::Index(derivatives[d].amplitude)];
-    }
-    // The amplitudes that can move follow the shape: their columns are projected out.
-    Eigen::MatrixXd moving(amplitude_count, amplitude_count);
+  result.system = linear_system_of(compressed, model, result.amplitudes);
+  for (Eigen::Index c = 0; c < channels; ++c) {
+    ChannelSystem& channel = result.system[std::size_t(c)];
+    const Eigen::MatrixXd basis = channel.amplitude_jacobian.topRows(amplitude_count) * space.map;
+    Eigen::MatrixXd moving(amplitude_count, basis.cols());
     Eigen::Index moving_count = 0;
-    for (Eigen::Index k = 0; k < amplitude_count; ++k) {
-      const double norm = basis.col(k).norm();
-      if (beta[k] <= lower[k] || beta[k] >= upper[k] || norm == 0) continue;
-      moving.col(moving_count++) = basis.col(k) / norm;
+    for (Eigen::Index g = 0; g < basis.cols(); ++g) {
+      const Eigen::Index k = space.free[std::size_t(g)];
+      const double value = result.amplitudes(k, c);
+      const double norm = basis.col(g).norm();
+      if (value <= box.amplitude_lower(k, c) || value >= box.amplitude_upper(k, c) || norm == 0) {
+        continue;
+      }
+      moving.col(moving_count++) = basis.col(g) / norm;
     }
-    if (moving_count > 0 && jacobian.cols() > 0) {
-      const Eigen::MatrixXd free = moving.leftCols(moving_count);
-      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-      qr.setThreshold(rank_threshold);
-      qr.compute(free);
-      auto top = jacobian.topRows(amplitude_count);
-      const Eigen::MatrixXd reached = free * qr.solve(Eigen::MatrixXd(top));
-      top -= reached;
+    if (moving_count > 0 && channel.shape_jacobian.cols() > 0) {
+      project_out(moving.leftCols(moving_count), channel.shape_jacobian);
     }
-    result.jacobian.middleRows(first, rows) = jacobian;
+    channel.amplitude_jacobian.resize(rows + 1, 0);
   }
   return result;
 }

@@ -4,31 +4,30 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
 
 #include "fit/batch_model.h"
 #include "fit/compression.h"
+#include "fit/linear_system.h"
 #include "fit/parameters.h"
 
 namespace gonio::fit {
 
 struct Projected {
   Eigen::MatrixXd amplitudes;  // [amplitude, channel], within their bounds
-  /// The compressed residuals y - B beta: per channel the rows of the factor, then the part that
-  /// no parameter reaches. Their squares sum to the full problem's.
-  Eigen::VectorXd residuals;
-  /// Kaufman's Jacobian of the residuals by the shape, [row, shape]: its J'r is the exact
-  /// gradient. Empty without derivatives.
-  Eigen::MatrixXd jacobian;
-
-  /// Half the sum of squares, as Ceres counts it.
-  double cost() const { return residuals.squaredNorm() / 2; }
+  /// Without amplitude_jacobian. shape_jacobian is Kaufman's: its J'r is the exact gradient of the
+  /// projected cost. Empty without derivatives.
+  LinearSystem system;
 };
 
 /// Projects the amplitudes out, within the box. `compressed` must hold the derivative columns if
 /// `with_jacobian`.
 Projected project(const Compressed& compressed, const BatchModel& model, const Box& box,
                   bool with_jacobian);
+
+/// The system of amplitudes and shape together, at the given amplitudes. `compressed` must hold the
+/// derivative columns.
+LinearSystem linear_system_of(const Compressed& compressed, const BatchModel& model,
+                              const Eigen::MatrixXd& amplitudes);
 
 /// Minimises |matrix x - rhs|^2 subject to lower <= x <= upper (elementwise). Exact for the few
 /// unknowns it is meant for: the active sets are enumerated if the free solution is not inside.

@@ -8,7 +8,8 @@
 #include <set>
 
 #include "fit/compression.h"
-#include "fit/search.h"
+#include "fit/projection.h"
+#include "fit/subset.h"
 #include "fit/weighted_samples.h"
 
 namespace gonio::fit {
@@ -38,8 +39,9 @@ std::set<std::string> undetermined_parameters(const WeightedSamples& samples,
   const ParameterValues values{
       ordinary_shape(batch.model()),
       Eigen::MatrixXd::Ones(Eigen::Index(batch.amplitude_count()), Eigen::Index(channels.size()))};
-  const Compressed compressed = compress(samples, batch, values.shape, true, {});
-  const Identifiability identifiability(compressed, batch, box_of(batch.model(), channels, {}),
+  const LinearSystem system =
+      linear_system_of(compress(samples, batch, values.shape, true, {}), batch, values.amplitudes);
+  const Identifiability identifiability(system, batch.model(), box_of(batch.model(), channels, {}),
                                         values, unknowns);
   std::set<std::string> names;
   for (const std::vector<std::size_t>& group : identifiability.undetermined()) {
@@ -62,10 +64,14 @@ std::vector<std::string> determinable_models(const table::SampleTable& table,
     const brdf::Model model(name);
     const BatchModel batch(model);
     if (!subset) {
-      const WeightedSamples all(table, batch, plain);
-      subset = representative_subset(table, all.filter(), all.used_samples(), subset_samples);
+      const table::SampleFilter filter(table, plain.max_theta_deg);
+      subset = representative_subset(table, filter,
+                                     survey_of(table, filter, options.threads).used_samples,
+                                     subset_samples, options.threads);
     }
-    const WeightedSamples samples(*subset, batch, plain);
+    const WeightedSamples samples(
+        *subset, batch, plain,
+        survey_of(*subset, table::SampleFilter(*subset, plain.max_theta_deg), 1));
     const std::set<std::string> undetermined =
         undetermined_parameters(samples, batch, table.channels);
     if (undetermined.empty()) {

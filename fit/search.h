@@ -11,23 +11,18 @@
 
 namespace gonio::fit {
 
-/// About `count` of the used samples of `table`, weighted so that sums over the subset stand for
-/// sums over the table: of each run of consecutive used samples the brightest (narrow lobes live in
-/// few samples) and one other that speaks for the rest. The whole if it is no larger.
-table::SampleTable representative_subset(const table::SampleTable& table,
-                                         const table::SampleFilter& filter,
-                                         std::size_t used_samples, std::size_t count);
-
 /// Where a solution over the whole table starts.
 struct Start {
-  std::vector<double> shape;
+  ParameterValues values;
   int iterations;  // of the solver on the subset, to get there
 };
 
-/// Starts, best first: the local minima, solved on `subset`, of a scan over the
-/// shape's search range (with the amplitudes projected out), as far as their cost comes near the
-/// best one's. Parameters with a start value or a fixed one keep it in the scan.
+/// Starts, best first. The shape's search range is scanned on a thin part of `subset`, with the
+/// amplitudes solved for at each point; the minima are solved, first there, then on `subset`, as
+/// far as their cost comes near the best one's. Fixed parameters keep their value; options.start
+/// adds scans that keep it. `floors` as in WeightedSamples.
 std::vector<Start> search_starts(const table::SampleTable& subset, const BatchModel& model,
-                                 const Box& box, const Options& options);
+                                 const Box& box, const Options& options,
+                                 std::span<const double> floors);
 
 }  // namespace gonio::fit

@@ -1,115 +1,312 @@
 #include "fit/solve.h"
 
 #include <ceres/cost_function.h>
+#include <ceres/evaluation_callback.h>
+#include <ceres/iteration_callback.h>
+#include <ceres/ordered_groups.h>
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
+#include "fit/compression.h"
+#include "fit/joint_system.h"
 #include "fit/projection.h"
+#include "fit/variables.h"
 
 namespace gonio::fit {
 namespace {
 
-/// A shape parameter that the solver may move, and the variable that stands for it.
-class Variable {
- public:
-  Variable(std::size_t shape_index, brdf::Scale scale) : index_(shape_index), scale_(scale) {}
+/// Below this share of the cost, what another step would gain is certain enough to be taken without
+/// looking again: the error of the step is of the order of its square.
+constexpr double last_step_share = 1e-11;
+/// With more channels than this the amplitudes are eliminated channel by channel.
+constexpr std::size_t most_dense_channels = 8;
 
-  std::size_t index() const { return index_; }
-  double from_shape(double value) const { return logarithmic() ? std::log(value) : value; }
-  double to_shape(double variable) const { return logarithmic() ? std::exp(variable) : variable; }
-  /// d shape / d variable, at the shape's value.
-  double slope(double value) const { return logarithmic() ? value : 1; }
-
- private:
-  bool logarithmic() const { return scale_ == brdf::Scale::logarithmic; }
-  std::size_t index_;
-  brdf::Scale scale_;
-};
-
-/// The shape parameters that may move: not fixed, and not held at a bound.
-std::vector<Variable> variables_of(const brdf::Model& model, const Box& box,
-                                   const std::vector<bool>& held) {
-  std::vector<Variable> variables;
-  for (std::size_t j = 0; j < model.shape().size(); ++j) {
-    if (box.shape_lower[j] == box.shape_upper[j] || held[j]) continue;
-    variables.emplace_back(j, model.shape()[j].descriptor.scale);
-  }
-  return variables;
-}
-
-/// The projected problem at the last shape asked for: the solver asks twice for an accepted step,
-/// once for its cost and once for its Jacobian, and a pass over the table is dear.
+/// The problem at the last values asked for: the solver asks twice for an accepted step, once for
+/// its cost and once for its Jacobian, and a pass over the table is dear.
 class LastEvaluation {
  public:
   LastEvaluation(const WeightedSamples& samples, const BatchModel& model, const Box& box,
-                 const PassOptions& options)
-      : samples_(samples), model_(model), box_(box), options_(options) {}
+                 const ScaledLoss& loss, const PassOptions& passes)
+      : samples_(samples),
+        model_(model),
+        box_(box),
+        loss_(loss),
+        passes_(passes),
+        projectable_(is_projectable(samples.metric(), loss.loss)) {}
 
-  void move_to(const std::vector<double>& shape) {
-    if (shape_ == shape) return;
-    compressed_ = compress(samples_, model_, shape, true, options_);
-    projected_ = project(compressed_, model_, box_, true);
-    shape_ = shape;
+  bool projectable() const { return projectable_; }
+
+  void move_to(const ParameterValues& values) {
+    if (evaluated_ && shape_ == values.shape &&
+        (projectable_ || values_.amplitudes == values.amplitudes)) {
+      return;
+    }
+    evaluated_ = true;
+    shape_ = values.shape;
+    values_ = values;
+    if (!projectable_) {
+      full_ = joint_system_of(samples_, model_, values_, loss_, passes_);
+      return;
+    }
+    const Compressed compressed = compress(samples_, model_, values_.shape, true, passes_);
+    Projected projected = project(compressed, model_, box_, true);
+    values_.amplitudes = projected.amplitudes;
+    projected_ = std::move(projected.system);
+    full_ = linear_system_of(compressed, model_, values_.amplitudes);
   }
 
-  const Compressed& compressed() const { return compressed_; }
-  const Projected& projected() const { return projected_; }
+  /// The values asked for, with the amplitudes that were solved for.
+  const ParameterValues& values() const { return values_; }
+  /// What the solver works on.
+  const LinearSystem& system() const { return projectable_ ? projected_ : full_; }
+  /// Amplitudes and shape together.
+  const LinearSystem& full_system() const { return full_; }
 
  private:
   const WeightedSamples& samples_;
   const BatchModel& model_;
   const Box& box_;
-  const PassOptions& options_;
-  std::optional<std::vector<double>> shape_;
-  Compressed compressed_;
-  Projected projected_;
+  const ScaledLoss& loss_;
+  const PassOptions& passes_;
+  bool projectable_;
+  bool evaluated_ = false;
+  std::vector<double> shape_;
+  ParameterValues values_;
+  LinearSystem projected_;
+  LinearSystem full_;
 };
 
-class ProjectedCost : public ceres::CostFunction {
- public:
-  /// `scale` multiplies the residuals, so that tolerances mean the same for every table.
-  ProjectedCost(LastEvaluation& evaluation, const std::vector<Variable>& variables,
-                std::vector<double> shape, int residuals, double scale)
-      : evaluation_(evaluation), variables_(variables), shape_(std::move(shape)), scale_(scale) {
-    set_num_residuals(residuals);
-    mutable_parameter_block_sizes()->push_back(int(variables.size()));
+/// The state of the variables in Ceres, block by block: the amplitudes of each channel unless they
+/// are projected out, then the shape. Blocks without variables are left out.
+struct State {
+  std::vector<VariableBlock> blocks;
+  std::vector<std::vector<double>> x;
+  std::vector<std::optional<std::size_t>> channels;  // of a block of amplitudes
+
+  ParameterValues values(ParameterValues rest, const AmplitudeSpace& space) const {
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+      for (std::size_t v = 0; v < blocks[b].size(); ++v) blocks[b][v].to(x[b][v], rest);
+    }
+    return with_dependent(std::move(rest), space);
   }
 
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override {
-    std::vector<double> shape = shape_;
-    for (std::size_t v = 0; v < variables_.size(); ++v) {
-      shape[variables_[v].index()] = variables_[v].to_shape(parameters[0][v]);
+  static ParameterValues with_dependent(ParameterValues values, const AmplitudeSpace& space) {
+    if (values.amplitudes.size() == 0) return values;
+    const Eigen::MatrixXd free = values.amplitudes(space.free, Eigen::all);
+    values.amplitudes = (space.map * free).colwise() + space.offset;
+    return values;
+  }
+};
+
+/// Which variables are held at a bound.
+class HeldVariables {
+ public:
+  HeldVariables(const brdf::Model& model, const Box& box, std::size_t channels, bool projectable) {
+    if (!projectable) {
+      for (std::size_t c = 0; c < channels; ++c) {
+        VariableBlock block;
+        for (std::size_t g = 0; g < box.amplitudes.free.size(); ++g) {
+          block.push_back(Variable::of_amplitude(box, g, c));
+        }
+        add(block, c);
+      }
     }
-    evaluation_.move_to(shape);
-    const Projected& projected = evaluation_.projected();
-    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = scale_ * projected.residuals;
-    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(
-        jacobians[0], num_residuals(), Eigen::Index(variables_.size()));
-    // A Map with one column is stored the same either way.
-    for (std::size_t v = 0; v < variables_.size(); ++v) {
-      const std::size_t j = variables_[v].index();
-      jacobian.col(Eigen::Index(v)) =
-          scale_ * variables_[v].slope(shape[j]) * projected.jacobian.col(Eigen::Index(j));
+    VariableBlock shape;
+    for (std::size_t j = 0; j < model.shape().size(); ++j) {
+      shape.push_back(Variable::of_shape(model, box, j));
+    }
+    add(shape, std::nullopt);
+  }
+
+  State moving(const ParameterValues& values) const {
+    State state;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      VariableBlock block;
+      std::vector<double> x;
+      for (std::size_t v = 0; v < blocks_[b].size(); ++v) {
+        if (held_[b][v]) continue;
+        block.push_back(blocks_[b][v]);
+        x.push_back(blocks_[b][v].from(values));
+      }
+      if (block.empty()) continue;
+      state.blocks.push_back(std::move(block));
+      state.x.push_back(std::move(x));
+      state.channels.push_back(channels_[b]);
+    }
+    return state;
+  }
+
+  std::size_t count() const {
+    std::size_t sum = 0;
+    for (const VariableBlock& block : blocks_) sum += block.size();
+    return sum;
+  }
+
+  /// Holds every variable that stands at a bound and whose gradient points out of the box, and lets
+  /// go of those whose gradient points inward. Returns whether anything changed.
+  bool update(const Box& box, const LinearSystem& system, ParameterValues& values) {
+    bool changed = false;
+    for (std::size_t b = 0; b < blocks_.size(); ++b) {
+      for (std::size_t v = 0; v < blocks_[b].size(); ++v) {
+        const Variable& variable = blocks_[b][v];
+        const int bound = variable.bound_reached(values);
+        double gradient = 0;
+        for (std::size_t c = 0; c < system.size(); ++c) {
+          const Eigen::VectorXd column = variable.column(system[c], c, box, values);
+          if (column.size() > 0) gradient += column.dot(system[c].residuals);
+        }
+        const bool hold = (bound < 0 && gradient > 0) || (bound > 0 && gradient < 0);
+        if (hold) variable.put_on_bound(bound, values);
+        changed = changed || hold != held_[b][v];
+        held_[b][v] = hold;
+      }
+    }
+    values = State::with_dependent(std::move(values), box.amplitudes);
+    return changed;
+  }
+
+ private:
+  void add(VariableBlock& block, std::optional<std::size_t> channel) {
+    std::erase_if(block, [](const Variable& v) { return v.is_fixed(); });
+    if (block.empty()) return;
+    held_.emplace_back(block.size(), false);
+    channels_.push_back(channel);
+    blocks_.push_back(std::move(block));
+  }
+
+  std::vector<VariableBlock> blocks_;
+  std::vector<std::optional<std::size_t>> channels_;
+  std::vector<std::vector<bool>> held_;
+};
+
+/// Evaluates the problem where the variables stand, whenever Ceres has moved them.
+class Mover : public ceres::EvaluationCallback {
+ public:
+  Mover(LastEvaluation& evaluation, const State& state, ParameterValues rest, const Box& box)
+      : evaluation_(evaluation), state_(state), rest_(std::move(rest)), box_(box) {}
+
+  void PrepareForEvaluation(bool /*evaluate_jacobians*/, bool /*new_evaluation_point*/) override {
+    evaluation_.move_to(state_.values(rest_, box_.amplitudes));
+  }
+
+ private:
+  LastEvaluation& evaluation_;
+  const State& state_;
+  ParameterValues rest_;
+  const Box& box_;
+};
+
+/// The rows of one channel.
+class ChannelCost : public ceres::CostFunction {
+ public:
+  /// `blocks` are those of the state that the channel depends on. `scale` multiplies the residuals,
+  /// so that tolerances mean the same for every table.
+  ChannelCost(const LastEvaluation& evaluation, const State& state, std::vector<std::size_t> blocks,
+              std::size_t channel, const Box& box, double scale)
+      : evaluation_(evaluation),
+        state_(state),
+        blocks_(std::move(blocks)),
+        channel_(channel),
+        box_(box),
+        scale_(scale) {
+    set_num_residuals(int(evaluation.system()[channel].residuals.size()));
+    for (const std::size_t b : blocks_) {
+      mutable_parameter_block_sizes()->push_back(int(state.blocks[b].size()));
+    }
+  }
+
+  bool Evaluate(double const* const* /*parameters*/, double* residuals,
+                double** jacobians) const override {
+    const ChannelSystem& system = evaluation_.system()[channel_];
+    Eigen::Map<Eigen::VectorXd>(residuals, num_residuals()) = scale_ * system.residuals;
+    if (jacobians == nullptr) return true;
+    for (std::size_t k = 0; k < blocks_.size(); ++k) {
+      if (jacobians[k] == nullptr) continue;
+      const VariableBlock& block = state_.blocks[blocks_[k]];
+      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> jacobian(
+          jacobians[k], num_residuals(), Eigen::Index(block.size()));
+      for (std::size_t v = 0; v < block.size(); ++v) {
+        jacobian.col(Eigen::Index(v)) =
+            scale_ * block[v].column(system, channel_, box_, evaluation_.values());
+      }
     }
     return true;
   }
 
  private:
-  LastEvaluation& evaluation_;
-  const std::vector<Variable>& variables_;
-  std::vector<double> shape_;
+  const LastEvaluation& evaluation_;
+  const State& state_;
+  std::vector<std::size_t> blocks_;
+  std::size_t channel_;
+  const Box& box_;
   double scale_;
 };
 
-ceres::Solver::Options solver_options() {
+/// The step of Gauss and Newton in the variables of a single block, and what it would gain.
+struct Step {
+  Eigen::VectorXd change;
+  double gain = 0;  // of the cost
+};
+
+Step gauss_newton_step(const LastEvaluation& evaluation, const State& state, const Box& box) {
+  const LinearSystem& system = evaluation.system();
+  const Eigen::Index rows = system.front().residuals.size();
+  const VariableBlock& block = state.blocks.front();
+  Eigen::MatrixXd jacobian(rows * Eigen::Index(system.size()), Eigen::Index(block.size()));
+  Eigen::VectorXd residuals(jacobian.rows());
+  for (std::size_t c = 0; c < system.size(); ++c) {
+    residuals.segment(rows * Eigen::Index(c), rows) = system[c].residuals;
+    for (std::size_t v = 0; v < block.size(); ++v) {
+      jacobian.col(Eigen::Index(v)).segment(rows * Eigen::Index(c), rows) =
+          block[v].column(system[c], c, box, evaluation.values());
+    }
+  }
+  Step step;
+  step.change = jacobian.colPivHouseholderQr().solve(-residuals);
+  step.gain = (jacobian * step.change).squaredNorm() / 2;
+  return step;
+}
+
+/// Ends the iterations where only the last step is left to take.
+class LastStepCallback : public ceres::IterationCallback {
+ public:
+  LastStepCallback(const LastEvaluation& evaluation, const State& state, const Box& box)
+      : evaluation_(evaluation), state_(state), box_(box) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    if (!summary.step_is_valid && summary.iteration > 0) return ceres::SOLVER_CONTINUE;
+    return gauss_newton_step(evaluation_, state_, box_).gain <=
+                   last_step_share * cost_of(evaluation_.system())
+               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+               : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const LastEvaluation& evaluation_;
+  const State& state_;
+  const Box& box_;
+};
+
+/// The norm of the residuals that a model of amplitude 0 would have, to first order.
+double norm_of_data(const LastEvaluation& evaluation) {
+  double square = 0;
+  const LinearSystem& system = evaluation.full_system();
+  for (std::size_t c = 0; c < system.size(); ++c) {
+    square += (system[c].residuals -
+               system[c].amplitude_jacobian * evaluation.values().amplitudes.col(Eigen::Index(c)))
+                  .squaredNorm();
+  }
+  return std::sqrt(square);
+}
+
+ceres::Solver::Options solver_options(const State& state) {
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = 200;
   // Residuals are scaled to a table of norm 1. A noise-free table converges quadratically down to
   // rounding, so that only the step may end it; a noisy one ends when the cost stands still.
@@ -117,88 +314,136 @@ ceres::Solver::Options solver_options() {
   options.gradient_tolerance = 1e-17;
   options.parameter_tolerance = 1e-13;
   options.logging_type = ceres::SILENT;
+  options.linear_solver_type = ceres::DENSE_QR;
+  const auto of_amplitudes =
+      std::size_t(std::count_if(state.channels.begin(), state.channels.end(),
+                                [](const auto& channel) { return channel.has_value(); }));
+  if (of_amplitudes > most_dense_channels && of_amplitudes < state.blocks.size()) {
+    options.linear_solver_type = ceres::DENSE_SCHUR;
+    options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+  }
   return options;
 }
 
-/// Lets Ceres move the shape's variables from where `shape` stands, within the box.
+void add_blocks(State& state, const LastEvaluation& evaluation, const Box& box, double scale,
+                ceres::Problem& problem, ceres::Solver::Options& options) {
+  for (std::size_t c = 0; c < evaluation.system().size(); ++c) {
+    std::vector<std::size_t> blocks;
+    std::vector<double*> pointers;
+    for (std::size_t b = 0; b < state.blocks.size(); ++b) {
+      if (state.channels[b].value_or(c) != c) continue;
+      blocks.push_back(b);
+      pointers.push_back(state.x[b].data());
+    }
+    if (blocks.empty()) continue;
+    problem.AddResidualBlock(new ChannelCost(evaluation, state, blocks, c, box, scale), nullptr,
+                             pointers);
+  }
+  for (std::size_t b = 0; b < state.blocks.size(); ++b) {
+    for (std::size_t v = 0; v < state.blocks[b].size(); ++v) {
+      const Variable& variable = state.blocks[b][v];
+      if (std::isfinite(variable.lower())) {
+        problem.SetParameterLowerBound(state.x[b].data(), int(v), variable.lower());
+      }
+      if (std::isfinite(variable.upper())) {
+        problem.SetParameterUpperBound(state.x[b].data(), int(v), variable.upper());
+      }
+    }
+    if (options.linear_solver_ordering) {
+      options.linear_solver_ordering->AddElementToGroup(state.x[b].data(),
+                                                        state.channels[b] ? 0 : 1);
+    }
+  }
+}
+
+/// Lets Ceres move the variables of `state`, from where they stand.
 struct Moved {
   bool converged = true;
   int iterations = 0;
 };
 
-Moved move_variables(const std::vector<Variable>& variables, const Box& box,
-                     LastEvaluation& evaluation, std::vector<double>& shape) {
-  evaluation.move_to(shape);
-  if (variables.empty()) return {};
-  const double norm = std::hypot(evaluation.compressed().projected.norm(),
-                                 evaluation.compressed().unreachable.norm());
-  std::vector<double> x;
-  for (const Variable& v : variables) x.push_back(v.from_shape(shape[v.index()]));
-  ceres::Problem problem;
-  problem.AddResidualBlock(
-      new ProjectedCost(evaluation, variables, shape, int(evaluation.projected().residuals.size()),
-                        norm > 0 ? 1 / norm : 1),
-      nullptr, x.data());
-  for (std::size_t v = 0; v < variables.size(); ++v) {
-    const std::size_t j = variables[v].index();
-    problem.SetParameterLowerBound(x.data(), int(v), variables[v].from_shape(box.shape_lower[j]));
-    problem.SetParameterUpperBound(x.data(), int(v), variables[v].from_shape(box.shape_upper[j]));
-  }
+Moved move_variables(State& state, const Box& box, LastEvaluation& evaluation,
+                     ParameterValues& values) {
+  evaluation.move_to(values);
+  values = evaluation.values();
+  if (state.blocks.empty()) return {};
+  const double norm = norm_of_data(evaluation);
+  Mover mover(evaluation, state, values, box);
+  ceres::Problem::Options problem_options;
+  problem_options.evaluation_callback = &mover;
+  ceres::Problem problem(problem_options);
+  ceres::Solver::Options options = solver_options(state);
+  add_blocks(state, evaluation, box, norm > 0 ? 1 / norm : 1, problem, options);
+  LastStepCallback last_step(evaluation, state, box);
+  if (evaluation.projectable()) options.callbacks.push_back(&last_step);
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(), &problem, &summary);
-  for (std::size_t v = 0; v < variables.size(); ++v) {
-    const std::size_t j = variables[v].index();
-    // exp(log(bound)) may miss the bound by a rounding.
-    shape[j] = std::clamp(variables[v].to_shape(x[v]), box.shape_lower[j], box.shape_upper[j]);
-  }
-  evaluation.move_to(shape);
-  return {summary.termination_type == ceres::CONVERGENCE,
+  ceres::Solve(options, &problem, &summary);
+  evaluation.move_to(state.values(values, box.amplitudes));
+  values = evaluation.values();
+  return {summary.termination_type == ceres::CONVERGENCE ||
+              summary.termination_type == ceres::USER_SUCCESS,
           std::max(int(summary.iterations.size()) - 1, 0)};
 }
 
-/// Holds every parameter that stands at a bound and whose gradient points out of the box, and lets
-/// go of those whose gradient points inward. Returns whether anything changed.
-bool update_held(const Box& box, const Projected& projected, std::vector<double>& shape,
-                 std::vector<bool>& held) {
-  const Eigen::VectorXd gradient = projected.jacobian.transpose() * projected.residuals;
-  bool changed = false;
-  for (std::size_t j = 0; j < held.size(); ++j) {
-    if (box.shape_lower[j] == box.shape_upper[j]) continue;
-    const double near = 1e-9 * std::abs(shape[j]);
-    const bool at_lower = shape[j] - box.shape_lower[j] <= near;
-    const bool at_upper = box.shape_upper[j] - shape[j] <= near;
-    const double slope = gradient[Eigen::Index(j)];
-    const bool hold = (at_lower && slope > 0) || (at_upper && slope < 0);
-    if (hold) shape[j] = at_lower ? box.shape_lower[j] : box.shape_upper[j];
-    changed = changed || hold != held[j];
-    held[j] = hold;
+/// Takes the step of Gauss and Newton that is left, if it is small enough to be certain and stays
+/// in the box: in the shape, and with it in the amplitudes.
+void take_last_step(const LastEvaluation& evaluation, const State& state, const Box& box,
+                    Solution& solution) {
+  if (!evaluation.projectable() || state.blocks.empty()) return;
+  const Step step = gauss_newton_step(evaluation, state, box);
+  if (!(step.gain <= last_step_share * solution.cost)) return;
+  ParameterValues moved = solution.values;
+  const VariableBlock& block = state.blocks.front();
+  for (std::size_t v = 0; v < block.size(); ++v) {
+    const double x = block[v].from(solution.values) + step.change[Eigen::Index(v)];
+    if (!(x >= block[v].lower() && x <= block[v].upper())) return;
+    block[v].to(x, moved);
   }
-  return changed;
+  const AmplitudeSpace& space = box.amplitudes;
+  for (std::size_t c = 0; c < solution.system.size(); ++c) {
+    const ChannelSystem& system = solution.system[c];
+    const auto column = Eigen::Index(c);
+    Eigen::VectorXd residuals = system.residuals;
+    for (std::size_t v = 0; v < block.size(); ++v) {
+      residuals += step.change[Eigen::Index(v)] * block[v].column(system, c, box, solution.values);
+    }
+    const Eigen::MatrixXd basis = system.amplitude_jacobian * space.map;
+    const Eigen::VectorXd now = solution.values.amplitudes(space.free, column);
+    const Eigen::VectorXd free = bounded_least_squares(basis, basis * now - residuals,
+                                                       box.amplitude_lower(space.free, column),
+                                                       box.amplitude_upper(space.free, column));
+    moved.amplitudes.col(column) = space.offset + space.map * free;
+  }
+  solution.values = std::move(moved);
+  solution.cost -= step.gain;
 }
 
 }  // namespace
 
 Solution solve(const WeightedSamples& samples, const BatchModel& model, const Box& box,
-               std::vector<double> shape, const PassOptions& options) {
-  LastEvaluation evaluation(samples, model, box, options);
+               const ScaledLoss& loss, ParameterValues start, const PassOptions& passes) {
+  LastEvaluation evaluation(samples, model, box, loss, passes);
+  HeldVariables variables(model.model(), box, samples.channel_count(), evaluation.projectable());
   Solution solution;
+  solution.values = std::move(start);
   // Ceres cuts a step off at the box and may then stop though the other parameters could still
   // gain: those at a bound are held, and the rest is solved again, until nothing changes.
-  std::vector<bool> held(shape.size(), false);
-  const std::size_t most_rounds = 2 * shape.size() + 2;
+  const std::size_t most_rounds = 2 * variables.count() + 2;
   bool settled = false;
+  State state;
   for (std::size_t round = 0; round < most_rounds && !settled; ++round) {
-    const Moved moved =
-        move_variables(variables_of(model.model(), box, held), box, evaluation, shape);
+    state = variables.moving(solution.values);
+    const Moved moved = move_variables(state, box, evaluation, solution.values);
     solution.converged = moved.converged;
     solution.iterations += moved.iterations;
-    settled = !update_held(box, evaluation.projected(), shape, held);
+    settled = !variables.update(box, evaluation.system(), solution.values);
   }
-  evaluation.move_to(shape);
+  evaluation.move_to(solution.values);
+  solution.values = evaluation.values();
   solution.converged = solution.converged && settled;
-  solution.values = {std::move(shape), evaluation.projected().amplitudes};
-  solution.cost = evaluation.projected().cost();
-  solution.compressed = evaluation.compressed();
+  solution.cost = cost_of(evaluation.system());
+  solution.system = evaluation.full_system();
+  take_last_step(evaluation, state, box, solution);
   return solution;
 }
 

@@ -1,10 +1,10 @@
-// Levenberg-Marquardt (Ceres) in the shape parameters, from one start.
+// Levenberg-Marquardt (Ceres), from one start.
 #pragma once
 
-#include <vector>
-
 #include "fit/batch_model.h"
-#include "fit/compression.h"
+#include "fit/chunk_pass.h"
+#include "fit/linear_system.h"
+#include "fit/loss.h"
 #include "fit/parameters.h"
 #include "fit/weighted_samples.h"
 
@@ -12,16 +12,17 @@ namespace gonio::fit {
 
 struct Solution {
   ParameterValues values;
-  /// The problem at `values`, with its derivatives.
-  Compressed compressed;
-  double cost = 0;  // half the sum of squares
+  /// The problem at `values`, amplitudes and shape together.
+  LinearSystem system;
+  double cost = 0;  // half the sum of squares, or of what the loss makes of them
   bool converged = false;
   int iterations = 0;
 };
 
-/// Minimises over the box from `shape`, which must lie inside. Roughnesses and other scales are
-/// walked in their logarithm.
+/// Minimises over the box from `start`, whose shape must lie inside. Where the problem is
+/// projectable (joint_system.h) the amplitudes are solved for and those of `start` play no part.
+/// Roughnesses and other scales are walked in their logarithm, angles around their period.
 Solution solve(const WeightedSamples& samples, const BatchModel& model, const Box& box,
-               std::vector<double> shape, const PassOptions& options);
+               const ScaledLoss& loss, ParameterValues start, const PassOptions& passes);
 
 }  // namespace gonio::fit

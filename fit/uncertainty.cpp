@@ -1,11 +1,10 @@
 #include "fit/uncertainty.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-
-#include "fit/chunk_pass.h"
 
 namespace gonio::fit {
 namespace {
@@ -19,116 +18,66 @@ constexpr double participation = 0.05;
 /// An amplitude below this share of what the data could show is rounding.
 constexpr double negligible_share = 1e-10;
 
-/// True if the amplitude contributes nothing to a channel but rounding.
-bool is_negligible(const Compressed& compressed, double amplitude, Eigen::Index basis,
-                   Eigen::Index channel) {
-  const double data =
-      std::hypot(compressed.projected.col(channel).norm(), compressed.unreachable[channel]);
-  return std::abs(amplitude) * compressed.factor(channel).col(basis).norm() <=
-         negligible_share * data;
-}
-
-/// The amplitudes with the negligible ones set to 0.
-Eigen::MatrixXd significant_amplitudes(const Compressed& compressed,
+/// The amplitudes with the negligible ones set to 0: those that contribute nothing to a channel but
+/// rounding.
+Eigen::MatrixXd significant_amplitudes(const LinearSystem& system,
                                        const Eigen::MatrixXd& amplitudes) {
   Eigen::MatrixXd significant = amplitudes;
   for (Eigen::Index c = 0; c < amplitudes.cols(); ++c) {
+    const ChannelSystem& channel = system[std::size_t(c)];
+    const double data = (channel.residuals - channel.amplitude_jacobian * amplitudes.col(c)).norm();
     for (Eigen::Index k = 0; k < amplitudes.rows(); ++k) {
-      if (is_negligible(compressed, amplitudes(k, c), k, c)) significant(k, c) = 0;
+      const double share = std::abs(amplitudes(k, c)) * channel.amplitude_jacobian.col(k).norm();
+      if (share <= negligible_share * data) significant(k, c) = 0;
     }
   }
   return significant;
 }
 
-/// The Jacobian of the compressed rows by every unknown, [channel * rows + row, unknown].
-Eigen::MatrixXd full_jacobian(const Compressed& compressed, const BatchModel& model,
-                              const Eigen::MatrixXd& amplitudes,
+/// The Jacobian of the rows by every unknown, [channel * rows + row, unknown]; the shape of terms
+/// that are absent has no influence.
+Eigen::MatrixXd full_jacobian(const LinearSystem& system, const brdf::Model& model,
+                              const std::vector<bool>& absent_terms,
                               std::span<const Unknown> unknowns) {
-  const Eigen::Index rows = compressed.projected.rows();
-  const Eigen::Index channels = compressed.projected.cols();
-  const auto amplitude_count = Eigen::Index(model.amplitude_count());
-  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows * channels, Eigen::Index(unknowns.size()));
+  const Eigen::Index rows = system.front().residuals.size();
+  Eigen::MatrixXd jacobian =
+      Eigen::MatrixXd::Zero(rows * Eigen::Index(system.size()), Eigen::Index(unknowns.size()));
   for (std::size_t u = 0; u < unknowns.size(); ++u) {
     const Unknown& unknown = unknowns[u];
     auto column = jacobian.col(Eigen::Index(u));
     if (!unknown.is_shape) {
-      const auto c = Eigen::Index(unknown.channel);
-      column.segment(c * rows, rows) = compressed.factor(c).col(Eigen::Index(unknown.index));
+      column.segment(Eigen::Index(unknown.channel) * rows, rows) =
+          system[unknown.channel].amplitude_jacobian.col(Eigen::Index(unknown.index));
       continue;
     }
-    for (std::size_t d = 0; d < model.derivatives().size(); ++d) {
-      const BatchModel::Derivative derivative = model.derivatives()[d];
-      if (derivative.shape != unknown.index) continue;
-      for (Eigen::Index c = 0; c < channels; ++c) {
-        column.segment(c * rows, rows) +=
-            amplitudes(Eigen::Index(derivative.amplitude), c) *
-            compressed.factor(c).col(amplitude_count + Eigen::Index(d));
-      }
+    if (absent_terms[model.shape()[unknown.index].term]) continue;
+    for (std::size_t c = 0; c < system.size(); ++c) {
+      column.segment(Eigen::Index(c) * rows, rows) =
+          system[c].shape_jacobian.col(Eigen::Index(unknown.index));
     }
   }
   return jacobian;
 }
 
-/// The scores of a chunk's samples: row r holds sum over channels of residual times gradient.
-/// Channels of one sample are summed first, so that they may err together.
-void write_scores(const SampleChunk& chunk, const Eigen::MatrixXd& columns, const BatchModel& model,
-                  const ParameterValues& values, std::span<const Unknown> unknowns,
-                  bool shared_factors, Eigen::MatrixXd& scores) {
-  const auto rows = Eigen::Index(chunk.directions.count);
-  const auto amplitude_count = Eigen::Index(model.amplitude_count());
-  const auto basis = columns.topLeftCorner(rows, amplitude_count);
-  // residual * factor^2, [row, channel].
-  Eigen::MatrixXd weighted = chunk.values.topRows(rows) - basis * values.amplitudes;
-  for (Eigen::Index c = 0; c < weighted.cols(); ++c) {
-    const auto factor = chunk.factors.col(shared_factors ? 0 : c).head(rows).array();
-    weighted.col(c).array() *= factor * factor;
-  }
-  scores.topRows(rows).setZero();
-  for (std::size_t u = 0; u < unknowns.size(); ++u) {
-    const Unknown& unknown = unknowns[u];
-    auto score = scores.col(Eigen::Index(u)).head(rows);
-    if (!unknown.is_shape) {
-      score = basis.col(Eigen::Index(unknown.index))
-                  .cwiseProduct(weighted.col(Eigen::Index(unknown.channel)));
-      continue;
-    }
-    for (std::size_t d = 0; d < model.derivatives().size(); ++d) {
-      const BatchModel::Derivative derivative = model.derivatives()[d];
-      if (derivative.shape != unknown.index) continue;
-      const Eigen::VectorXd amplitude =
-          values.amplitudes.row(Eigen::Index(derivative.amplitude)).transpose();
-      score += columns.col(amplitude_count + Eigen::Index(d))
-                   .head(rows)
-                   .cwiseProduct(weighted * amplitude);
+/// How all the unknowns move with the free ones, [unknown, free].
+Eigen::MatrixXd freedom_of(std::span<const Unknown> unknowns, const Box& box,
+                           std::span<const std::size_t> free) {
+  Eigen::MatrixXd freedom =
+      Eigen::MatrixXd::Zero(Eigen::Index(unknowns.size()), Eigen::Index(free.size()));
+  for (std::size_t f = 0; f < free.size(); ++f) {
+    const Unknown& moved = unknowns[free[f]];
+    freedom(Eigen::Index(free[f]), Eigen::Index(f)) = 1;
+    if (moved.is_shape) continue;
+    const auto& indices = box.amplitudes.free;
+    const auto column =
+        std::find(indices.begin(), indices.end(), Eigen::Index(moved.index)) - indices.begin();
+    for (std::size_t u = 0; u < unknowns.size(); ++u) {
+      if (unknowns[u].is_shape || unknowns[u].channel != moved.channel) continue;
+      freedom(Eigen::Index(u), Eigen::Index(f)) =
+          box.amplitudes.map(Eigen::Index(unknowns[u].index), column);
     }
   }
-}
-
-/// The sum over the samples of their scores' outer products.
-Eigen::MatrixXd score_products(const WeightedSamples& samples, const BatchModel& model,
-                               const ParameterValues& values, std::span<const Unknown> unknowns,
-                               const PassOptions& passes) {
-  const auto count = Eigen::Index(unknowns.size());
-  struct State {
-    Eigen::MatrixXd sum, columns, scores;
-  };
-  const std::vector<State> parts = chunk_pass(
-      samples, passes,
-      [&] {
-        return State{Eigen::MatrixXd::Zero(count, count),
-                     Eigen::MatrixXd(chunk_rows, Eigen::Index(model.column_count(true))),
-                     Eigen::MatrixXd(chunk_rows, count)};
-      },
-      [&](const SampleChunk& chunk, State& state) {
-        model.evaluate(chunk.directions, values.shape, true, state.columns);
-        write_scores(chunk, state.columns, model, values, unknowns, samples.shared_factors(),
-                     state.scores);
-        const auto used = state.scores.topRows(Eigen::Index(chunk.directions.count));
-        state.sum.selfadjointView<Eigen::Lower>().rankUpdate(used.transpose());
-      });
-  Eigen::MatrixXd total = Eigen::MatrixXd::Zero(count, count);
-  for (const State& part : parts) total += part.sum;
-  return total.selfadjointView<Eigen::Lower>();
+  return freedom;
 }
 
 /// The 97.5 % quantile that an interval takes.
@@ -137,7 +86,7 @@ double quantile_975(Covariance kind, double freedom, const WeightedSamples& samp
   // The channels of a sample may err together: for the sandwich only samples count, and of the
   // unknowns those that one channel sees.
   const double channels = double(samples.channel_count());
-  const double sample_freedom = double(samples.used_samples()) - std::ceil(rank / channels);
+  const double sample_freedom = double(samples.survey().used_samples) - std::ceil(rank / channels);
   const double degrees = kind == Covariance::sandwich ? std::min(freedom, sample_freedom) : freedom;
   return boost::math::quantile(boost::math::students_t(std::max(degrees, 1.0)), 0.975);
 }
@@ -145,65 +94,69 @@ double quantile_975(Covariance kind, double freedom, const WeightedSamples& samp
 Covariance kind_for(const Options& options, const WeightedSamples& samples, bool misfit) {
   if (options.covariance != Covariance::automatic) return options.covariance;
   // A weight beside sigma says that a sample counts more than its noise tells.
-  return options.metric == Metric::chi2 && !misfit && !samples.table().has_weight()
+  return options.metric == Metric::chi2 && options.loss == Loss::none && !misfit &&
+                 !samples.has_weight()
              ? Covariance::known_sigma
              : Covariance::sandwich;
 }
 
 }  // namespace
 
-Identifiability::Identifiability(const Compressed& compressed, const BatchModel& model,
+Identifiability::Identifiability(const LinearSystem& system, const brdf::Model& model,
                                  const Box& box, const ParameterValues& values,
                                  std::span<const Unknown> unknowns) {
-  const Eigen::MatrixXd amplitudes = significant_amplitudes(compressed, values.amplitudes);
-  const Eigen::MatrixXd jacobian = full_jacobian(compressed, model, amplitudes, unknowns);
-  absent_terms_.assign(model.model().terms().size(), true);
-  for (std::size_t k = 0; k < model.amplitude_count(); ++k) {
-    if ((amplitudes.row(Eigen::Index(k)).array() != 0).any()) {
-      absent_terms_[model.model().amplitudes()[k].term] = false;
+  const Eigen::MatrixXd amplitudes = significant_amplitudes(system, values.amplitudes);
+  absent_terms_.assign(model.terms().size(), true);
+  for (Eigen::Index k = 0; k < amplitudes.rows(); ++k) {
+    if ((amplitudes.row(k).array() != 0).any()) {
+      absent_terms_[model.amplitudes()[std::size_t(k)].term] = false;
     }
   }
-  inverse_ = Eigen::MatrixXd::Zero(jacobian.cols(), jacobian.cols());
+  const auto unknown_count = Eigen::Index(unknowns.size());
+  inverse_ = Eigen::MatrixXd::Zero(unknown_count, unknown_count);
+  determined_ = Eigen::MatrixXd::Zero(unknown_count, 0);
   for (std::size_t u = 0; u < unknowns.size(); ++u) {
-    if (!box.is_fixed(unknowns[u])) free_.push_back(u);
+    if (!box.is_fixed(unknowns[u]) && !unknowns[u].dependent) free_.push_back(u);
   }
   if (free_.empty()) return;
 
-  const auto count = Eigen::Index(free_.size());
-  Eigen::MatrixXd scaled(jacobian.rows(), count);
+  const Eigen::MatrixXd freedom = freedom_of(unknowns, box, free_);
+  Eigen::MatrixXd jacobian = full_jacobian(system, model, absent_terms_, unknowns) * freedom;
+  const Eigen::Index count = jacobian.cols();
   Eigen::VectorXd norms(count);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const auto column = jacobian.col(Eigen::Index(free_[std::size_t(k)]));
-    norms[k] = column.stableNorm();
-    if (norms[k] > 0) {
-      scaled.col(k) = column / norms[k];
-    } else {
-      scaled.col(k).setZero();
-      norms[k] = 1;
-    }
+    const double norm = jacobian.col(k).stableNorm();
+    norms[k] = norm > 0 ? norm : 1;
+    jacobian.col(k) /= norms[k];
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::ColPivHouseholderQRPreconditioner> svd(
-      scaled, Eigen::ComputeThinV | Eigen::ComputeThinU);
+      jacobian, Eigen::ComputeThinV | Eigen::ComputeThinU);
   const Eigen::VectorXd& singular = svd.singularValues();
-  Eigen::MatrixXd inverse = Eigen::MatrixXd::Zero(count, count);
+  Eigen::MatrixXd combinations(count, count);
+  Eigen::Index determined = 0;
   for (Eigen::Index s = 0; s < singular.size(); ++s) {
     const auto direction = svd.matrixV().col(s);
     if (singular[s] > singular_threshold * singular[0]) {
-      inverse += direction * direction.transpose() / (singular[s] * singular[s]);
+      combinations.col(determined++) = (direction.array() / norms.array()) / singular[s];
       continue;
     }
+    // Those that take part, and what depends on them.
+    const Eigen::VectorXd part =
+        freedom * (direction.array().abs() > participation).select(direction, 0).matrix();
     std::vector<std::size_t> group;
-    for (Eigen::Index k = 0; k < count; ++k) {
-      if (std::abs(direction[k]) > participation) group.push_back(free_[std::size_t(k)]);
+    for (std::size_t u = 0; u < unknowns.size(); ++u) {
+      if (part[Eigen::Index(u)] != 0) group.push_back(u);
     }
     undetermined_.push_back(std::move(group));
   }
-  for (Eigen::Index a = 0; a < count; ++a) {
-    for (Eigen::Index b = 0; b < count; ++b) {
-      inverse_(Eigen::Index(free_[std::size_t(a)]), Eigen::Index(free_[std::size_t(b)])) =
-          inverse(a, b) / (norms[a] * norms[b]);
-    }
-  }
+  determined_ = freedom * combinations.leftCols(determined);
+  inverse_ = determined_ * determined_.transpose();
+}
+
+Eigen::MatrixXd Identifiability::inverse_of(const Eigen::MatrixXd& matrix) const {
+  const Eigen::LLT<Eigen::MatrixXd> factor(determined_.transpose() * matrix * determined_);
+  if (factor.info() != Eigen::Success) return inverse_;
+  return determined_ * factor.solve(determined_.transpose());
 }
 
 bool Identifiability::is_undetermined(std::size_t unknown) const {
@@ -212,40 +165,48 @@ bool Identifiability::is_undetermined(std::size_t unknown) const {
   });
 }
 
-Uncertainty uncertainty_of(const Solution& solution, const Identifiability& identifiability,
-                           const WeightedSamples& samples, const BatchModel& model, const Box& box,
-                           std::span<const Unknown> unknowns, const Options& options,
-                           const PassOptions& passes) {
-  const double rank = double(identifiability.rank());
-  const double values = double(samples.used_values());
-  const double freedom = values - rank;
-  const double variance = freedom > 0 ? 2 * solution.cost / freedom : 0;
-
+Uncertainty uncertainty_kind(const Solution& solution, const Identifiability& identifiability,
+                             const WeightedSamples& samples, const Options& options) {
+  const double freedom = double(samples.survey().used_values) - double(identifiability.rank());
   Uncertainty result;
-  if (options.metric == Metric::chi2 && freedom > 0) {
-    result.reduced_chi2 = variance;
-    result.misfit = variance > 1 + 5 * std::sqrt(2 / freedom);
+  if (options.metric == Metric::chi2 && options.loss == Loss::none && freedom > 0) {
+    result.reduced_chi2 = 2 * solution.cost / freedom;
+    result.misfit = *result.reduced_chi2 > 1 + 5 * std::sqrt(2 / freedom);
   }
   result.kind = kind_for(options, samples, result.misfit);
+  return result;
+}
 
-  Eigen::MatrixXd covariance = identifiability.inverse();
+void complete_uncertainty(const Solution& solution, const Identifiability& identifiability,
+                          const WeightedSamples& samples, const Box& box,
+                          std::span<const Unknown> unknowns, const Assessment& assessment,
+                          Uncertainty& result) {
+  const double rank = double(identifiability.rank());
+  const double values = double(samples.survey().used_values);
+  const double freedom = values - rank;
+
+  result.covariance = identifiability.inverse();
   if (result.kind == Covariance::residual) {
-    covariance *= variance;
+    result.covariance *= freedom > 0 ? 2 * solution.cost / freedom : 0;
   } else if (result.kind == Covariance::sandwich) {
-    const Eigen::MatrixXd meat = score_products(samples, model, solution.values, unknowns, passes);
+    // With a robust loss the curvature of the cost is not J'J: Huber (1981), 6.3.
+    const Eigen::MatrixXd bread = assessment.curvature.size() > 0
+                                      ? identifiability.inverse_of(assessment.curvature)
+                                      : identifiability.inverse();
     // The usual small-sample factor of a covariance clustered by sample (Cameron & Miller 2015).
-    const double clusters = double(samples.used_samples());
+    const double clusters = double(samples.survey().used_samples);
     const double small_sample =
         freedom > 0 && clusters > 1 ? clusters / (clusters - 1) * (values - 1) / freedom : 1;
-    covariance = small_sample * covariance * meat * covariance;
+    result.covariance = small_sample * bread * assessment.score_products * bread;
   }
 
   const std::size_t count = unknowns.size();
   result.stddev.resize(count);
   result.interval95.resize(count);
   result.correlation.assign(count, std::vector<std::optional<double>>(count));
-  if (freedom <= 0 && result.kind != Covariance::known_sigma) return result;
+  if (freedom <= 0 && result.kind != Covariance::known_sigma) return;
   const double quantile = quantile_975(result.kind, freedom, samples, rank);
+  const Eigen::MatrixXd& covariance = result.covariance;
   for (std::size_t u = 0; u < count; ++u) {
     if (box.is_fixed(unknowns[u]) || identifiability.is_undetermined(u)) continue;
     const auto i = Eigen::Index(u);
@@ -266,7 +227,6 @@ Uncertainty uncertainty_of(const Solution& solution, const Identifiability& iden
               : 0.0;
     }
   }
-  return result;
 }
 
 }  // namespace gonio::fit

@@ -8,7 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "fit/batch_model.h"
+#include "fit/assessment.h"
+#include "fit/linear_system.h"
 #include "fit/options.h"
 #include "fit/parameters.h"
 #include "fit/solve.h"
@@ -20,7 +21,7 @@ namespace gonio::fit {
 /// decomposition of the full Jacobian (all unknowns that are not fixed), columns scaled to 1.
 class Identifiability {
  public:
-  Identifiability(const Compressed& compressed, const BatchModel& model, const Box& box,
+  Identifiability(const LinearSystem& system, const brdf::Model& model, const Box& box,
                   const ParameterValues& values, std::span<const Unknown> unknowns);
 
   /// Unknowns that only a common change of which the data does not see, one group for each
@@ -36,11 +37,17 @@ class Identifiability {
   /// (J'J)^+ over all the unknowns, without the undetermined combinations; 0 in the rows and
   /// columns of fixed ones.
   const Eigen::MatrixXd& inverse() const { return inverse_; }
+  /// The same of another symmetric matrix over all the unknowns, on the combinations that are
+  /// determined; inverse() if it is not positive definite there.
+  Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& matrix) const;
 
  private:
   std::vector<std::size_t> free_;
   std::vector<std::vector<std::size_t>> undetermined_;
   std::vector<bool> absent_terms_;
+  /// [unknown, combination]: each column changes the residuals by a unit vector, orthogonal to the
+  /// others'.
+  Eigen::MatrixXd determined_;
   Eigen::MatrixXd inverse_;
 };
 
@@ -55,16 +62,22 @@ struct Uncertainty {
   std::vector<std::optional<std::pair<double, double>>> interval95;
   /// [unknown][unknown]; none where either has no stddev.
   std::vector<std::vector<std::optional<double>>> correlation;
+  /// [unknown, unknown]; 0 for what is fixed or undetermined.
+  Eigen::MatrixXd covariance;
   /// Sum of squared residuals over the degrees of freedom; only under chi2.
   std::optional<double> reduced_chi2;
   /// The residuals are larger than the known sigma explains, beyond 5 standard deviations.
   bool misfit = false;
 };
 
-/// One pass over the samples for the sandwich, none else.
-Uncertainty uncertainty_of(const Solution& solution, const Identifiability& identifiability,
-                           const WeightedSamples& samples, const BatchModel& model, const Box& box,
-                           std::span<const Unknown> unknowns, const Options& options,
-                           const PassOptions& passes);
+/// Which covariance to take, and what of it is known before the samples are looked at again.
+Uncertainty uncertainty_kind(const Solution& solution, const Identifiability& identifiability,
+                             const WeightedSamples& samples, const Options& options);
+
+/// Completes what uncertainty_kind() began. `assessment` is needed for the sandwich.
+void complete_uncertainty(const Solution& solution, const Identifiability& identifiability,
+                          const WeightedSamples& samples, const Box& box,
+                          std::span<const Unknown> unknowns, const Assessment& assessment,
+                          Uncertainty& uncertainty);
 
 }  // namespace gonio::fit

@@ -2,54 +2,72 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "fit/batch_model.h"
 #include "fit/options.h"
 #include "fit/parameters.h"
+#include "fit/survey.h"
 #include "table/sample_table.h"
 
 namespace gonio::fit {
 
-/// The used samples among chunk_rows consecutive ones of the table.
+/// The used samples among chunk_rows consecutive ones of the table. Like the directions, all
+/// columns go on to the end of the last pack, with values, factors and weights of 0.
 struct SampleChunk {
+  /// Where each sample stands in the table.
+  std::array<std::size_t, chunk_rows> samples;
   DirectionChunk directions;
   /// f_r, [row, channel]; 0 where the channel was not measured.
   Eigen::MatrixXd values;
-  /// The factor of the residual f - model, [row, 0] for all channels or [row, channel]; 0 where
+  /// What the metric multiplies (residual.h), [row, 0] for all channels or [row, channel]; 0 where
   /// the channel was not measured.
   Eigen::MatrixXd factors;
+  /// The table's weights; 1 where it carries none.
+  std::array<double, chunk_rows> weights;
 
   explicit SampleChunk(std::size_t channels);
+
+  /// Rows including the padding of the last pack.
+  std::size_t padded_count() const {
+    return (directions.count + brdf::Pack::size - 1) / brdf::Pack::size * brdf::Pack::size;
+  }
 };
 
 /// A view of a table under a metric. The chunks, and with them every sum over the samples, are
 /// the same for any number of threads.
 class WeightedSamples {
  public:
-  /// Keeps references to the table and, with options.noise, to `reference`: the parameters whose
-  /// model values give sigma; without a reference the measured values do. Throws
-  /// std::invalid_argument if chi2 has no sigma, table::FileError if no sample is left, or a
-  /// noise of 0 would give a sample an infinite weight.
+  /// Keeps references to the table, to the model, and, with options.noise, to `reference`: the
+  /// parameters whose model values give sigma; without a reference the measured values do. `floors`
+  /// (relative_floors()) are needed by the relative metric only. Throws std::invalid_argument if
+  /// chi2 has no sigma, table::FileError if a noise of 0 would give a sample an infinite weight.
   WeightedSamples(const table::SampleTable& table, const BatchModel& model, const Options& options,
+                  const Survey& survey, std::span<const double> floors = {},
                   const ParameterValues* reference = nullptr);
 
   const table::SampleTable& table() const { return *table_; }
   const table::SampleFilter& filter() const { return filter_; }
+  Metric metric() const { return metric_; }
   std::size_t chunk_count() const;
   std::size_t channel_count() const { return table_->channels.size(); }
   /// True if a row counts the same in every channel: SampleChunk::factors has one column.
   bool shared_factors() const { return shared_factors_; }
-  /// Samples used, and measured values among them (all channels).
-  std::size_t used_samples() const { return used_samples_; }
-  std::size_t used_values() const { return used_values_; }
+  /// The column of SampleChunk::factors that holds a channel's.
+  Eigen::Index factor_column(Eigen::Index channel) const { return shared_factors_ ? 0 : channel; }
+  bool has_weight() const { return table_->has_weight(); }
+  const Survey& survey() const { return survey_; }
 
   /// Fills `chunk` with the used samples of the given chunk, in the table's order.
   void gather(std::size_t chunk_index, SampleChunk& chunk) const;
 
  private:
-  void count_used();
+  void gather_factors(SampleChunk& chunk) const;
+  void gather_noise(SampleChunk& chunk) const;
   double factor_of_noise(double value) const;
 
   const table::SampleTable* table_;
@@ -57,11 +75,10 @@ class WeightedSamples {
   const BatchModel* model_;
   Metric metric_;
   std::optional<Noise> noise_;
+  Survey survey_;
+  std::vector<double> floors_;
   const ParameterValues* reference_;
-  bool has_holes_ = false;
-  bool shared_factors_ = true;
-  std::size_t used_samples_ = 0;
-  std::size_t used_values_ = 0;
+  bool shared_factors_;
 };
 
 }  // namespace gonio::fit

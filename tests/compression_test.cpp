@@ -52,6 +52,13 @@ Dense dense_problem(const table::SampleTable& table, const brdf::Model& model,
   return dense;
 }
 
+fit::WeightedSamples samples_of(const table::SampleTable& table, const fit::BatchModel& batch,
+                                const fit::Options& options) {
+  const table::SampleFilter filter(table, options.max_theta_deg);
+  return {table, batch, options, fit::survey_of(table, filter, 1),
+          fit::relative_floors(table, filter, 1)};
+}
+
 class CompressionUnder : public testing::TestWithParam<fit::Metric> {};
 
 TEST_P(CompressionUnder, GivesTheDenseProblemsSolutionAndCost) {
@@ -59,7 +66,7 @@ TEST_P(CompressionUnder, GivesTheDenseProblemsSolutionAndCost) {
   const brdf::Model model("ward-aniso");
   const fit::BatchModel batch(model);
   const fit::Options options{.metric = GetParam()};
-  const fit::WeightedSamples samples(table, batch, options);
+  const fit::WeightedSamples samples = samples_of(table, batch, options);
   const std::vector<double> shape{0.05, 0.16};  // the truth: no bound is active
   const fit::Compressed compressed = fit::compress(samples, batch, shape, true, {});
   const fit::Projected projected =
@@ -73,7 +80,7 @@ TEST_P(CompressionUnder, GivesTheDenseProblemsSolutionAndCost) {
               1e-12 * amplitudes.norm());
     cost += (dense.basis * amplitudes - dense.values).squaredNorm() / 2;
   }
-  EXPECT_NEAR(projected.cost(), cost, 1e-12 * cost);
+  EXPECT_NEAR(fit::cost_of(projected.system), cost, 1e-12 * cost);
 }
 
 TEST_P(CompressionUnder, GivesTheExactGradientOfTheProjectedCost) {
@@ -82,19 +89,23 @@ TEST_P(CompressionUnder, GivesTheExactGradientOfTheProjectedCost) {
   const fit::BatchModel batch(model);
   // A bound that is active in one channel: its amplitude does not follow the shape.
   const fit::Options options{.metric = GetParam(), .bounds = {{"rho_s.R", 0, 0.2}}};
-  const fit::WeightedSamples samples(table, batch, options);
+  const fit::WeightedSamples samples = samples_of(table, batch, options);
   const fit::Box box = fit::box_of(model, table.channels, options);
   const auto cost_at = [&](double alpha_x, double alpha_y) {
-    return fit::project(fit::compress(samples, batch, std::array{alpha_x, alpha_y}, false, {}),
-                        batch, box, false)
-        .cost();
+    return fit::cost_of(
+        fit::project(fit::compress(samples, batch, std::array{alpha_x, alpha_y}, false, {}), batch,
+                     box, false)
+            .system);
   };
   const double ax = 0.07;
   const double ay = 0.2;
   const fit::Projected projected =
       fit::project(fit::compress(samples, batch, std::array{ax, ay}, true, {}), batch, box, true);
   EXPECT_EQ(projected.amplitudes(1, 0), 0.2);
-  const Eigen::VectorXd gradient = projected.jacobian.transpose() * projected.residuals;
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(2);
+  for (const fit::ChannelSystem& channel : projected.system) {
+    gradient += channel.shape_jacobian.transpose() * channel.residuals;
+  }
   // Central differences: the truncation error is of the order h^2, the rounding of 1e-16 / h.
   const double h = 1e-6;
   EXPECT_NEAR(gradient[0], (cost_at(ax + h, ay) - cost_at(ax - h, ay)) / (2 * h),
@@ -112,13 +123,14 @@ TEST(Compression, DoesNoHarmToARankDeficientProblem) {
   const brdf::Model model("ward-aniso");
   const fit::BatchModel batch(model);
   const fit::Options options{.metric = fit::Metric::l2, .fixed = {{"rho_s", 0}}};
-  const fit::WeightedSamples samples(table, batch, options);
+  const fit::WeightedSamples samples = samples_of(table, batch, options);
   const fit::Projected projected =
       fit::project(fit::compress(samples, batch, std::array{1e-4, 1e-4}, true, {}), batch,
                    fit::box_of(model, table.channels, options), true);
-  EXPECT_TRUE(projected.residuals.allFinite());
-  EXPECT_TRUE(projected.jacobian.allFinite());
-  EXPECT_TRUE((projected.jacobian.array() == 0).all());
+  for (const fit::ChannelSystem& channel : projected.system) {
+    EXPECT_TRUE(channel.residuals.allFinite());
+    EXPECT_TRUE((channel.shape_jacobian.array() == 0).all());
+  }
 }
 
 TEST(BoundedLeastSquares, FindsTheMinimumOfABox) {

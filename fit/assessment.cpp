@@ -1,0 +1,341 @@
+#include "fit/assessment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "fit/columns.h"
+#include "fit/residual.h"
+
+namespace gonio::fit {
+namespace {
+
+using brdf::Pack;
+
+constexpr std::array<std::string_view, 5> error_names{"l2", "cosine-l2", "log", "cube-root",
+                                                      "relative"};
+
+/// Sums over values.
+struct ErrorSums {
+  std::array<double, error_names.size()> squares{};
+  double weight = 0;
+  double metric_square = 0;  // of the metric's residual, weighted by the loss as well
+  double metric_weight = 0;
+
+  void add(const ErrorSums& other) {
+    for (std::size_t m = 0; m < squares.size(); ++m) squares[m] += other.squares[m];
+    weight += other.weight;
+    metric_square += other.metric_square;
+    metric_weight += other.metric_weight;
+  }
+};
+
+/// The columns of one channel, all padded_count() long.
+struct ChannelColumns {
+  const double* values;
+  const double* model;
+  const double* cos_i;
+  const double* factors;
+  const double* weights;
+  double floor;
+  std::size_t count;
+};
+
+/// Where a value was measured its weight, else 0.
+inline Pack weight_at(const ChannelColumns& in, std::size_t i) {
+  return select(less(Pack(0), Pack::load(in.factors + i)), Pack::load(in.weights + i), Pack(0));
+}
+
+GONIO_FOR_EACH_CPU void add_errors(const ChannelColumns& in, ErrorSums& sums) {
+  std::array<Pack, error_names.size()> squares;
+  squares.fill(Pack(0));
+  Pack weights(0);
+  for (std::size_t i = 0; i < in.count; i += Pack::size) {
+    const Pack f = Pack::load(in.values + i);
+    const Pack model = Pack::load(in.model + i);
+    const Pack cos_i = Pack::load(in.cos_i + i);
+    const Pack weight = weight_at(in, i);
+    const Pack one(1);
+    const Pack plain = model - f;
+    const std::array<Pack, error_names.size()> residuals{
+        plain, plain * cos_i, LogResidual::of(f, model, cos_i, one).value,
+        CubeRootResidual::of(f, model, cos_i, one).value, plain / larger(abs(f), Pack(in.floor))};
+    for (std::size_t m = 0; m < residuals.size(); ++m) {
+      squares[m] += weight * residuals[m] * residuals[m];
+    }
+    weights += weight;
+  }
+  for (std::size_t m = 0; m < squares.size(); ++m) sums.squares[m] += squares[m].sum();
+  sums.weight += weights.sum();
+}
+
+/// What each row of a channel contributes.
+struct RowColumns {
+  alignas(64) std::array<double, chunk_rows> residuals;
+  /// weight rho' r dr/dmodel: times the model's gradient, the score.
+  alignas(64) std::array<double, chunk_rows> scores;
+  /// weight (rho' + 2 s rho'') (dr/dmodel)^2.
+  alignas(64) std::array<double, chunk_rows> curvatures;
+};
+
+template <class MetricResidual>
+GONIO_FOR_EACH_CPU void write_rows(const ChannelColumns& in, const ScaledLoss& loss,
+                                   RowColumns& out, ErrorSums& sums) {
+  const Pack scale(loss.scale);
+  Pack square(0);
+  Pack weights(0);
+  for (std::size_t i = 0; i < in.count; i += Pack::size) {
+    const auto residual = MetricResidual::of(Pack::load(in.values + i), Pack::load(in.model + i),
+                                             Pack::load(in.cos_i + i), Pack::load(in.factors + i));
+    const Pack weight = weight_at(in, i);
+    const Pack s = (residual.value / scale) * (residual.value / scale);
+    const LossValue<Pack> lossy = loss(s);
+    const Pack weighted = weight * lossy.slope;
+    residual.value.store(&out.residuals[i]);
+    (weighted * residual.value * residual.slope).store(&out.scores[i]);
+    (weight * lossy.influence * residual.slope * residual.slope).store(&out.curvatures[i]);
+    square += weighted * residual.value * residual.value;
+    weights += weighted;
+  }
+  sums.metric_square += square.sum();
+  sums.metric_weight += weights.sum();
+}
+
+GONIO_FOR_EACH_CPU void multiply_columns(double* to, const double* a, const double* b,
+                                         std::size_t count) {
+  std::fill_n(to, count, 0.0);
+  add_product(to, a, b, count);
+}
+
+/// to(a, b) += a'b for the columns up to the diagonal, all column_stride apart.
+GONIO_FOR_EACH_CPU void add_inner_products(const double* a, const double* b, std::size_t columns,
+                                           std::size_t count, double* to) {
+  for (std::size_t i = 0; i < columns; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      to[i + j * columns] += inner_product(a + i * std::size_t(column_stride),
+                                           b + j * std::size_t(column_stride), count);
+    }
+  }
+}
+
+struct State {
+  ErrorSums errors;
+  Eigen::MatrixXd score_products, curvature;
+  std::size_t outlier_count = 0;
+  std::vector<Outlier> outliers;
+  double log_variance = 0;
+  // Of a chunk:
+  Eigen::MatrixXd columns, model_values, scores, gradients, weighted_gradients;
+  RowColumns rows;
+};
+
+class Assessor {
+ public:
+  Assessor(const WeightedSamples& samples, const BatchModel& model, const ParameterValues& values,
+           std::span<const Unknown> unknowns, std::span<const double> floors,
+           const AssessmentOptions& options)
+      : samples_(samples),
+        model_(model),
+        values_(values),
+        unknowns_(unknowns),
+        floors_(floors),
+        options_(options),
+        with_curvature_(options.scores && options.loss.loss != Loss::none) {}
+
+  State make_state() const {
+    const auto unknown_count = Eigen::Index(unknowns_.size());
+    State state;
+    state.columns.resize(column_stride, Eigen::Index(model_.column_count(true)));
+    state.model_values.resize(column_stride, values_.amplitudes.cols());
+    if (options_.scores) {
+      state.score_products.setZero(unknown_count, unknown_count);
+      state.scores.resize(column_stride, unknown_count);
+    }
+    if (with_curvature_) {
+      state.curvature.setZero(unknown_count, unknown_count);
+      state.gradients.resize(column_stride, unknown_count);
+      state.weighted_gradients.resize(column_stride, unknown_count);
+    }
+    return state;
+  }
+
+  void fold(const SampleChunk& chunk, State& state) const {
+    const auto rows = Eigen::Index(chunk.padded_count());
+    model_.evaluate(chunk.directions, values_.shape, options_.scores, state.columns);
+    state.model_values.topRows(rows).noalias() =
+        state.columns.topLeftCorner(rows, values_.amplitudes.rows()) * values_.amplitudes;
+    if (options_.scores) state.scores.topRows(rows).setZero();
+    for (Eigen::Index c = 0; c < chunk.values.cols(); ++c) {
+      const ChannelColumns in{chunk.values.col(c).data(),
+                              state.model_values.col(c).data(),
+                              chunk.directions.wi_z.data(),
+                              chunk.factors.col(samples_.factor_column(c)).data(),
+                              chunk.weights.data(),
+                              floors_[std::size_t(c)],
+                              std::size_t(rows)};
+      add_errors(in, state.errors);
+      with_residual(samples_.metric(), [&](auto residual) {
+        write_rows<decltype(residual)>(in, options_.loss, state.rows, state.errors);
+      });
+      if (options_.scores) add_scores(std::size_t(c), std::size_t(rows), state);
+      if (with_curvature_) add_curvature(std::size_t(c), std::size_t(rows), state);
+      if (std::isfinite(options_.outlier_threshold)) add_outliers(chunk, std::size_t(c), state);
+      if (samples_.metric() == Metric::chi2) add_variances(chunk, c, state);
+    }
+    if (options_.scores) {
+      add_inner_products(state.scores.data(), state.scores.data(), unknowns_.size(),
+                         std::size_t(rows), state.score_products.data());
+    }
+  }
+
+ private:
+  /// Calls add(unknown, amplitude, column) for each term of the gradient of the channel's model by
+  /// the unknowns: amplitude * column.
+  template <class Add>
+  void for_gradient(std::size_t channel, const State& state, const Add& add) const {
+    const auto column_stride_of = [&](std::size_t column) {
+      return state.columns.col(Eigen::Index(column)).data();
+    };
+    for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+      const Unknown& unknown = unknowns_[u];
+      if (!unknown.is_shape) {
+        if (unknown.channel == channel) add(u, 1.0, column_stride_of(unknown.index));
+        continue;
+      }
+      for (std::size_t d = 0; d < model_.derivatives().size(); ++d) {
+        const BatchModel::Derivative derivative = model_.derivatives()[d];
+        if (derivative.shape != unknown.index) continue;
+        add(u, values_.amplitudes(Eigen::Index(derivative.amplitude), Eigen::Index(channel)),
+            column_stride_of(model_.amplitude_count() + d));
+      }
+    }
+  }
+
+  void add_scores(std::size_t channel, std::size_t rows, State& state) const {
+    for_gradient(channel, state, [&](std::size_t u, double amplitude, const double* column) {
+      Eigen::Map<const Eigen::ArrayXd> score(state.rows.scores.data(), Eigen::Index(rows));
+      Eigen::Map<const Eigen::ArrayXd> gradient(column, Eigen::Index(rows));
+      state.scores.col(Eigen::Index(u)).head(Eigen::Index(rows)).array() +=
+          amplitude * score * gradient;
+    });
+  }
+
+  void add_curvature(std::size_t channel, std::size_t rows, State& state) const {
+    state.gradients.topRows(Eigen::Index(rows)).setZero();
+    for_gradient(channel, state, [&](std::size_t u, double amplitude, const double* column) {
+      state.gradients.col(Eigen::Index(u)).head(Eigen::Index(rows)) +=
+          amplitude * Eigen::Map<const Eigen::VectorXd>(column, Eigen::Index(rows));
+    });
+    for (Eigen::Index u = 0; u < state.gradients.cols(); ++u) {
+      multiply_columns(state.weighted_gradients.col(u).data(), state.gradients.col(u).data(),
+                       state.rows.curvatures.data(), rows);
+    }
+    add_inner_products(state.gradients.data(), state.weighted_gradients.data(), unknowns_.size(),
+                       rows, state.curvature.data());
+  }
+
+  void add_outliers(const SampleChunk& chunk, std::size_t channel, State& state) const {
+    for (std::size_t r = 0; r < chunk.directions.count; ++r) {
+      const double residual = state.rows.residuals[r];
+      if (!(std::abs(residual) > options_.outlier_threshold)) continue;
+      ++state.outlier_count;
+      state.outliers.push_back({chunk.samples[r], channel, residual});
+    }
+    keep_largest(state.outliers, 4 * most_outliers);
+  }
+
+  void add_variances(const SampleChunk& chunk, Eigen::Index channel, State& state) const {
+    for (std::size_t r = 0; r < chunk.directions.count; ++r) {
+      const double factor = chunk.factors(Eigen::Index(r), channel);
+      if (factor > 0) {
+        state.log_variance += std::log(2 * std::numbers::pi) - 2 * std::log(factor);
+      }
+    }
+  }
+
+  /// Leaves the `count` largest residuals, once there are more than that.
+  static void keep_largest(std::vector<Outlier>& outliers, std::size_t count) {
+    if (outliers.size() <= count) return;
+    sort_outliers(outliers);
+    outliers.resize(most_outliers);
+  }
+
+  static void sort_outliers(std::vector<Outlier>& outliers) {
+    std::stable_sort(outliers.begin(), outliers.end(), [](const Outlier& a, const Outlier& b) {
+      return std::abs(a.residual) > std::abs(b.residual);
+    });
+  }
+
+ public:
+  static void sort_and_cut(std::vector<Outlier>& outliers) {
+    sort_outliers(outliers);
+    outliers.resize(std::min(outliers.size(), most_outliers));
+  }
+
+ private:
+  const WeightedSamples& samples_;
+  const BatchModel& model_;
+  const ParameterValues& values_;
+  std::span<const Unknown> unknowns_;
+  std::span<const double> floors_;
+  const AssessmentOptions& options_;
+  bool with_curvature_;
+};
+
+/// What remains of a task.
+struct Part {
+  ErrorSums errors;
+  Eigen::MatrixXd score_products, curvature;
+  std::size_t outlier_count;
+  std::vector<Outlier> outliers;
+  double log_variance;
+};
+
+}  // namespace
+
+Assessment assess(const WeightedSamples& samples, const BatchModel& model,
+                  const ParameterValues& values, std::span<const Unknown> unknowns,
+                  std::span<const double> floors, const AssessmentOptions& options,
+                  const PassOptions& passes) {
+  const Assessor assessor(samples, model, values, unknowns, floors, options);
+  const std::vector<Part> parts = chunk_pass(
+      samples, passes, [&] { return assessor.make_state(); },
+      [&](const SampleChunk& chunk, State& state) { assessor.fold(chunk, state); },
+      [](State& state) {
+        if (state.outliers.size() > most_outliers) Assessor::sort_and_cut(state.outliers);
+        return Part{state.errors,        state.score_products,      state.curvature,
+                    state.outlier_count, std::move(state.outliers), state.log_variance};
+      });
+  Assessment result;
+  ErrorSums errors;
+  result.score_products = parts.front().score_products;
+  result.curvature = parts.front().curvature;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const Part& part = parts[p];
+    errors.add(part.errors);
+    if (p > 0) {
+      result.score_products += part.score_products;
+      result.curvature += part.curvature;
+    }
+    result.outlier_count += part.outlier_count;
+    result.outliers.insert(result.outliers.end(), part.outliers.begin(), part.outliers.end());
+    result.log_variance += part.log_variance;
+  }
+  Assessor::sort_and_cut(result.outliers);
+  for (Eigen::MatrixXd* matrix : {&result.score_products, &result.curvature}) {
+    const Eigen::MatrixXd whole = matrix->selfadjointView<Eigen::Lower>();
+    *matrix = whole;
+  }
+  const auto root = [](double sum, double weight) {
+    return weight > 0 ? std::sqrt(sum / weight) : 0;
+  };
+  for (std::size_t m = 0; m < error_names.size(); ++m) {
+    result.errors.emplace_back(error_names[m], root(errors.squares[m], errors.weight));
+  }
+  result.metric_error = root(errors.metric_square, errors.metric_weight);
+  return result;
+}
+
+}  // namespace gonio::fit

@@ -1,0 +1,15 @@
+// One answer where several parameter values describe the same material.
+#pragma once
+
+#include "brdf/model.h"
+#include "fit/parameters.h"
+
+namespace gonio::fit {
+
+/// The same f_r, described canonically, as far as the box allows:
+///   in a free frame alpha_x <= alpha_y, psi turned by a quarter where they were swapped, and in
+///   [-pi/2, pi/2);
+///   of two equal lobes the first is the one whose shape comes first in ascending order.
+ParameterValues canonical(const brdf::Model& model, const Box& box, ParameterValues values);
+
+}  // namespace gonio::fit
