@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -71,6 +72,22 @@ fit::Options options_in(const FitArguments& arguments) {
         {parameter, number_in(lower, "--bounds", form), number_in(upper, "--bounds", form)});
   }
   return options;
+}
+
+std::optional<std::vector<brdf::Model>> models_in(const FitArguments& arguments) {
+  if (!arguments.models || *arguments.models == "all") return std::nullopt;
+  std::vector<brdf::Model> models;
+  std::string_view rest = *arguments.models;
+  while (true) {
+    const std::size_t comma = rest.find(',');
+    brdf::Model model(rest.substr(0, comma));
+    if (std::none_of(models.begin(), models.end(),
+                     [&](const brdf::Model& other) { return other.name() == model.name(); })) {
+      models.push_back(std::move(model));
+    }
+    if (comma == std::string_view::npos) return models;
+    rest.remove_prefix(comma + 1);
+  }
 }
 
 }  // namespace gonio::app

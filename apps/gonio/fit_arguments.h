@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "brdf/model.h"
 #include "fit/options.h"
 
 namespace gonio::app {
 
 /// The texts of the command line.
 struct FitArguments {
-  std::string table;
+  std::vector<std::string> tables;
   std::optional<std::string> models;
   std::string metric = "cosine-l2";
   std::string covariance = "auto";
@@ -21,11 +22,16 @@ struct FitArguments {
   int threads = 0;
   std::string output;
   std::string residuals;
+  bool summary = false;
   bool json = false;
 };
 
 /// The options that they stand for. Throws std::invalid_argument that names the option and what it
 /// needs.
 fit::Options options_in(const FitArguments& arguments);
+
+/// The models that the user named, each once; none: all that a table can determine. Throws
+/// std::invalid_argument for an unknown one.
+std::optional<std::vector<brdf::Model>> models_in(const FitArguments& arguments);
 
 }  // namespace gonio::app

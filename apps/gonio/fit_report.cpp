@@ -54,15 +54,6 @@ std::string_view describe(fit::Covariance kind) {
   return "";
 }
 
-/// Three decimals, but not for a noise-free best that makes all others astronomically worse.
-std::string ratio_text(double ratio) {
-  return ratio < 1e5 ? fmt::format("{:.3f} x", ratio) : fmt::format("{:.1e} x", ratio);
-}
-
-std::string metric_unit(fit::Metric metric) {
-  return metric == fit::Metric::chi2 ? "sigma" : "1/sr";
-}
-
 }  // namespace
 
 std::string report_table(const table::SampleTable& table, const fit::FitResult& result,
@@ -92,9 +83,8 @@ std::string report_fit(const fit::FitResult& result) {
 }
 
 std::string report_ranking(const std::vector<fit::FitResult>& results) {
-  std::string text =
-      fmt::format("\n  {:<32} {:>10} {:>18} {:>10}\n", "model, best first", "parameters",
-                  fmt::format("error in {}", metric_unit(results.front().metric)), "to best");
+  std::string text = fmt::format("\n  {:<32} {:>10} {:>18} {:>10}\n", "model, best first",
+                                 "parameters", error_heading(results.front().metric), "to best");
   for (const fit::FitResult& result : results) {
     const double least = results.front().metric_error;
     const std::string ratio =
@@ -104,6 +94,26 @@ std::string report_ranking(const std::vector<fit::FitResult>& results) {
                         result.converged ? "" : "  not converged");
   }
   return text;
+}
+
+// Three decimals, but not for a noise-free best that makes all others astronomically worse.
+std::string ratio_text(double ratio) {
+  return ratio < 1e5 ? fmt::format("{:.3f} x", ratio) : fmt::format("{:.1e} x", ratio);
+}
+
+std::string error_heading(fit::Metric metric) {
+  switch (metric) {
+    case fit::Metric::l2:
+    case fit::Metric::cosine_l2:
+      return "error in 1/sr";
+    case fit::Metric::chi2:
+      return "error in sigma";
+    case fit::Metric::log:
+    case fit::Metric::cube_root:
+    case fit::Metric::relative:
+      break;
+  }
+  return "error";
 }
 
 }  // namespace gonio::app

@@ -17,4 +17,9 @@ std::string report_fit(const fit::FitResult& result);
 /// Several fits, best first, a line each.
 std::string report_ranking(const std::vector<fit::FitResult>& results);
 
+/// How many times larger an error is: "1.063 x".
+std::string ratio_text(double ratio);
+/// What heads a column of errors under a metric: "error in 1/sr".
+std::string error_heading(fit::Metric metric);
+
 }  // namespace gonio::app

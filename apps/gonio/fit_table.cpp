@@ -1,0 +1,160 @@
+#include "apps/gonio/fit_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+#include "apps/gonio/fit_residuals.h"
+#include "fit/ranking.h"
+#include "material/from_fit.h"
+#include "material/material_json.h"
+#include "table/file_error.h"
+#include "table/read.h"
+
+namespace gonio::app {
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// The table and the seconds that reading it took, without its digest.
+std::pair<table::SampleTable, double> read_table(const FitRequest& request, const FitFiles& files,
+                                                 FitMessages& messages) {
+  messages.progress("reading " + files.table);
+  const Stopwatch stopwatch;
+  table::SampleTable table = table::read(files.table, {.keep_angle_text = !files.residuals.empty(),
+                                                       .threads = request.options.threads});
+  const double seconds = stopwatch.seconds();
+  if (request.with_digest) table.provenance.sha256 = table::sha256_of_file(files.table);
+  for (const std::string& note : table.notes) messages.note_on_table(note);
+  return {std::move(table), seconds};
+}
+
+std::vector<brdf::Model> models_for(const table::SampleTable& table, const FitRequest& request,
+                                    FitMessages& messages) {
+  if (request.models) return *request.models;
+  std::vector<brdf::Model> models;
+  std::vector<std::string> excluded;
+  for (const std::string& name : fit::determinable_models(table, request.options, excluded)) {
+    models.emplace_back(name);
+  }
+  for (const std::string& note : excluded) messages.note(note);
+  if (models.empty()) {
+    throw table::FileError(
+        fmt::format("{}: its directions determine no model: name one with -m, or measure more",
+                    table.provenance.path));
+  }
+  return models;
+}
+
+/// Of the settings for several models those that this one has a parameter for.
+template <class Settings>
+Settings applicable(const Settings& settings, const brdf::Model& model,
+                    const table::SampleTable& table) {
+  Settings kept;
+  for (const auto& setting : settings) {
+    if (fit::has_parameter(model, table.channels, setting.parameter)) kept.push_back(setting);
+  }
+  return kept;
+}
+
+/// Refuses a setting that no model has the parameter for, and notes those without effect.
+void check_settings(const fit::Options& options, const std::vector<brdf::Model>& models,
+                    const table::SampleTable& table, FitMessages& messages) {
+  std::vector<std::string> names;
+  for (const auto& setting : options.fixed) names.push_back(setting.parameter);
+  for (const auto& setting : options.start) names.push_back(setting.parameter);
+  for (const auto& setting : options.bounds) names.push_back(setting.parameter);
+  for (const std::string& name : names) {
+    if (std::none_of(models.begin(), models.end(), [&](const brdf::Model& model) {
+          return fit::has_parameter(model, table.channels, name);
+        })) {
+      throw std::invalid_argument(
+          fmt::format("no parameter '{}' in the model or models of this fit: 'gonio models MODEL' "
+                      "lists those of a model; one channel's part is written rho_d.{}",
+                      name, table.channels.front()));
+    }
+  }
+  for (const auto& setting : options.start) {
+    if (setting.parameter.starts_with("rho_")) {
+      messages.note(fmt::format("--start {}: amplitudes are solved for exactly and need no start",
+                                setting.parameter));
+    }
+  }
+}
+
+std::vector<ModelFit> fit_models(const std::vector<brdf::Model>& models,
+                                 const table::SampleTable& table, const FitRequest& request,
+                                 FitMessages& messages) {
+  fit::Options options = request.options;
+  std::vector<ModelFit> fits;
+  for (const brdf::Model& model : models) {
+    const std::string what =
+        fmt::format("fitting {} ({} of {})", model.name(), fits.size() + 1, models.size());
+    messages.progress(what);
+    options.progress = [&](int pass, double share) {
+      messages.progress(fmt::format("{}, pass {}", what, pass), share);
+    };
+    options.fixed = applicable(request.options.fixed, model, table);
+    options.start = applicable(request.options.start, model, table);
+    options.bounds = applicable(request.options.bounds, model, table);
+    const Stopwatch stopwatch;
+    fit::FitResult result = fit::fit(model, table, options);
+    const double seconds = stopwatch.seconds();
+    material::Material material = material::from_fit(result, table, request.command_line);
+    fits.push_back({std::move(result), std::move(material), seconds});
+  }
+  std::stable_sort(fits.begin(), fits.end(), [](const ModelFit& a, const ModelFit& b) {
+    return fit::ranks_before(a.result, b.result);
+  });
+  return fits;
+}
+
+}  // namespace
+
+bool TableFit::has_converged() const {
+  return std::all_of(fits.begin(), fits.end(),
+                     [](const ModelFit& fit) { return fit.result.converged; });
+}
+
+TableFit fit_table(const FitRequest& request, const FitFiles& files, FitMessages& messages) {
+  auto [table, read_seconds] = read_table(request, files, messages);
+  if (!files.residuals.empty()) check_residual_columns(table);
+  const std::vector<brdf::Model> models = models_for(table, request, messages);
+  check_settings(request.options, models, table, messages);
+  std::vector<ModelFit> fits = fit_models(models, table, request, messages);
+
+  const material::Material& best = fits.front().material;
+  if (!files.material.empty()) material::write_material(best, files.material);
+  if (!files.residuals.empty()) write_residuals(files.residuals, table, best);
+  return {std::move(table), read_seconds, std::move(fits)};
+}
+
+void note_warnings(const TableFit& table_fit, FitMessages& messages) {
+  for (const std::string& warning : table_fit.fits.front().result.warnings) {
+    messages.note("warning: " + warning);
+  }
+}
+
+nlohmann::ordered_json json_of_fits(const TableFit& table_fit) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const ModelFit& fit : table_fit.fits) {
+    nlohmann::ordered_json json = material::to_json(fit.material);
+    json["timing"] = {
+        {"read_s", table_fit.read_seconds}, {"fit_s", fit.seconds}, {"passes", fit.result.passes}};
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+}  // namespace gonio::app
