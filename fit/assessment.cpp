@@ -241,7 +241,7 @@ class Assessor {
       const double residual = state.rows.residuals[r];
       if (!(std::abs(residual) > options_.outlier_threshold)) continue;
       ++state.outlier_count;
-      state.outliers.push_back({chunk.samples[r], channel, residual});
+      state.outliers.push_back({chunk.samples[r], channel, -residual});
     }
     keep_largest(state.outliers, 4 * most_outliers);
   }

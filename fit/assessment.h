@@ -30,7 +30,7 @@ using ErrorList = std::vector<std::pair<std::string_view, double>>;
 struct Outlier {
   std::size_t sample;  // in the table, from 0
   std::size_t channel;
-  double residual;  // of the metric: model - f, in its unit
+  double residual;  // measured less fitted, in the metric's unit
 };
 
 struct Assessment {

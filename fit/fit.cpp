@@ -240,6 +240,8 @@ FitResult fit(const brdf::Model& model, const table::SampleTable& table, const O
                    .outliers = std::move(assessment.outliers),
                    .aicc = {},
                    .bic = {},
+                   .held_out = {},
+                   .nested = {},
                    .samples = table.size(),
                    .used = survey.used_samples,
                    .used_values = survey.used_values,

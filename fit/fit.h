@@ -21,6 +21,27 @@
 
 namespace gonio::fit {
 
+/// The errors of samples that a fit has not seen (held_out.h).
+struct HeldOut {
+  struct Fold {
+    double lower_deg, upper_deg;  // the least and the largest incidence angle held out
+    std::size_t values;           // over all channels
+    double error;                 // like FitResult::metric_error
+  };
+  std::vector<Fold> folds;
+  /// Of all the folds together.
+  ErrorList errors;
+  double metric_error;
+};
+
+/// A model beside a richer one that contains it (nested.h).
+struct NestedComparison {
+  std::string in;    // the richer model
+  double statistic;  // of Wald's test: chi-square distributed if the smaller model is true
+  double p_value;
+  std::string text;  // the verdict, in words
+};
+
 struct FitResult {
   brdf::Model model;
   std::vector<std::string> channels;
@@ -48,6 +69,9 @@ struct FitResult {
   /// normal residuals with the known sigma; only under chi2, without a loss and weights.
   std::optional<double> aicc;
   std::optional<double> bic;
+  /// Only where several models were compared.
+  std::optional<HeldOut> held_out;
+  std::optional<NestedComparison> nested;
   std::size_t samples;  // in the table
   std::size_t used;
   std::size_t used_values;  // over all channels
