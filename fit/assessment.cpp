@@ -335,6 +335,9 @@ Assessment assess(const WeightedSamples& samples, const BatchModel& model,
     result.errors.emplace_back(error_names[m], root(errors.squares[m], errors.weight));
   }
   result.metric_error = root(errors.metric_square, errors.metric_weight);
+  result.weight = errors.weight;
+  result.metric_weight = errors.metric_weight;
+  result.values = samples.survey().used_values;
   return result;
 }
 

@@ -37,6 +37,10 @@ struct Assessment {
   ErrorList errors;
   /// Root mean square of the metric's residuals, weighted by the table and by the loss.
   double metric_error = 0;
+  /// The sums of weights that the squares were divided by.
+  double weight = 0;
+  double metric_weight = 0;
+  std::size_t values = 0;  // measured, over all channels
   /// Sum over the samples of the outer products of their scores, [unknown, unknown]. Channels of
   /// one sample are summed first, so that they may err together.
   Eigen::MatrixXd score_products;

@@ -1,0 +1,103 @@
+#include "fit/nested.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gonio::fit {
+namespace {
+
+constexpr double significance = 0.05;
+
+/// The terms of `rich` that are the anisotropic relatives of `plain`'s, where all others are the
+/// same; empty if `plain` is no special case of `rich`.
+std::vector<std::size_t> richer_terms(const brdf::Model& plain, const brdf::Model& rich) {
+  // Without anisotropy the tangent angle of a free frame means nothing, and the test does not hold.
+  if (plain.terms().size() != rich.terms().size() || rich.has_free_frame()) return {};
+  std::vector<std::size_t> terms;
+  for (std::size_t t = 0; t < plain.terms().size(); ++t) {
+    const std::string_view name = plain.terms()[t]->description.name;
+    const std::string_view other = rich.terms()[t]->description.name;
+    if (name == other) continue;
+    if (std::string(name) + "-aniso" != other) return {};
+    terms.push_back(t);
+  }
+  return terms;
+}
+
+/// Where the shape of a term stands among the unknowns.
+std::size_t first_shape_unknown(const FitResult& result, std::size_t term) {
+  const auto found = std::find_if(
+      result.unknowns.begin(), result.unknowns.end(),
+      [&](const Unknown& u) { return u.is_shape && result.model.shape()[u.index].term == term; });
+  return std::size_t(found - result.unknowns.begin());
+}
+
+/// ln(alpha_x / alpha_y) of each term, and their covariance; none where one is not determined.
+struct LogRatios {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd covariance;
+};
+
+std::optional<LogRatios> log_ratios(const FitResult& rich, const std::vector<std::size_t>& terms) {
+  const auto count = Eigen::Index(terms.size());
+  Eigen::MatrixXd gradient = Eigen::MatrixXd::Zero(count, rich.uncertainty.covariance.cols());
+  LogRatios ratios{Eigen::VectorXd(count), {}};
+  for (Eigen::Index t = 0; t < count; ++t) {
+    const std::size_t x = first_shape_unknown(rich, terms[std::size_t(t)]);
+    const std::size_t y = x + 1;
+    if (!rich.uncertainty.stddev[x] || !rich.uncertainty.stddev[y]) return std::nullopt;
+    const double alpha_x = rich.values[rich.unknowns[x]];
+    const double alpha_y = rich.values[rich.unknowns[y]];
+    ratios.values[t] = std::log(alpha_x / alpha_y);
+    gradient(t, Eigen::Index(x)) = 1 / alpha_x;
+    gradient(t, Eigen::Index(y)) = -1 / alpha_y;
+  }
+  ratios.covariance = gradient * rich.uncertainty.covariance * gradient.transpose();
+  return ratios;
+}
+
+std::string verdict(const FitResult& plain, const FitResult& rich, double p_value) {
+  const std::string p = p_value < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.4f}", p_value);
+  const double gain =
+      plain.metric_error > 0 ? 100 * (1 - rich.metric_error / plain.metric_error) : 0;
+  return p_value > significance
+             ? fmt::format("{} explains these data no better than {} ({}): take the isotropic one",
+                           rich.model.name(), plain.model.name(), p)
+             : fmt::format(
+                   "{} is not isotropic by these data ({}); against {} the error is {:.2g} "
+                   "% smaller",
+                   rich.model.name(), p, plain.model.name(), gain);
+}
+
+std::optional<NestedComparison> compare(const FitResult& plain, const FitResult& rich) {
+  const std::vector<std::size_t> terms = richer_terms(plain.model, rich.model);
+  if (terms.empty()) return std::nullopt;
+  const std::optional<LogRatios> ratios = log_ratios(rich, terms);
+  if (!ratios) return std::nullopt;
+  const Eigen::LLT<Eigen::MatrixXd> factor(ratios->covariance);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const double statistic = ratios->values.dot(factor.solve(ratios->values));
+  if (!std::isfinite(statistic)) return std::nullopt;
+  const boost::math::chi_squared distribution(double(terms.size()));
+  const double p_value = boost::math::cdf(boost::math::complement(distribution, statistic));
+  return NestedComparison{rich.model.name(), statistic, p_value, verdict(plain, rich, p_value)};
+}
+
+}  // namespace
+
+void compare_nested(std::span<FitResult> results) {
+  for (FitResult& plain : results) {
+    for (const FitResult& rich : results) {
+      if (auto comparison = compare(plain, rich)) plain.nested = std::move(comparison);
+    }
+  }
+}
+
+}  // namespace gonio::fit
