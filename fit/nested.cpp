@@ -67,13 +67,14 @@ std::string verdict(const FitResult& plain, const FitResult& rich, double p_valu
   const std::string p = p_value < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.4f}", p_value);
   const double gain =
       plain.metric_error > 0 ? 100 * (1 - rich.metric_error / plain.metric_error) : 0;
-  return p_value > significance
-             ? fmt::format("{} explains these data no better than {} ({}): take the isotropic one",
-                           rich.model.name(), plain.model.name(), p)
-             : fmt::format(
-                   "{} is not isotropic by these data ({}); against {} the error is {:.2g} "
-                   "% smaller",
-                   rich.model.name(), p, plain.model.name(), gain);
+  if (p_value > significance) {
+    return fmt::format("{} explains these data no better than {} ({}): take the isotropic one",
+                       rich.model.name(), plain.model.name(), p);
+  }
+  return fmt::format(
+      "these data are not isotropic ({}): the error of {} is {:.2g} % smaller than "
+      "that of {}",
+      p, rich.model.name(), gain, plain.model.name());
 }
 
 std::optional<NestedComparison> compare(const FitResult& plain, const FitResult& rich) {

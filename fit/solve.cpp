@@ -11,10 +11,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 
-#include "fit/compression.h"
-#include "fit/joint_system.h"
+#include "fit/evaluation.h"
 #include "fit/projection.h"
 #include "fit/variables.h"
 
@@ -27,168 +25,11 @@ constexpr double last_step_share = 1e-11;
 /// With more channels than this the amplitudes are eliminated channel by channel.
 constexpr std::size_t most_dense_channels = 8;
 
-/// The problem at the last values asked for: the solver asks twice for an accepted step, once for
-/// its cost and once for its Jacobian, and a pass over the table is dear.
-class LastEvaluation {
- public:
-  LastEvaluation(const WeightedSamples& samples, const BatchModel& model, const Box& box,
-                 const ScaledLoss& loss, const PassOptions& passes)
-      : samples_(samples),
-        model_(model),
-        box_(box),
-        loss_(loss),
-        passes_(passes),
-        projectable_(is_projectable(samples.metric(), loss.loss)) {}
-
-  bool projectable() const { return projectable_; }
-
-  void move_to(const ParameterValues& values) {
-    if (evaluated_ && shape_ == values.shape &&
-        (projectable_ || values_.amplitudes == values.amplitudes)) {
-      return;
-    }
-    evaluated_ = true;
-    shape_ = values.shape;
-    values_ = values;
-    if (!projectable_) {
-      full_ = joint_system_of(samples_, model_, values_, loss_, passes_);
-      return;
-    }
-    const Compressed compressed = compress(samples_, model_, values_.shape, true, passes_);
-    Projected projected = project(compressed, model_, box_, true);
-    values_.amplitudes = projected.amplitudes;
-    projected_ = std::move(projected.system);
-    full_ = linear_system_of(compressed, model_, values_.amplitudes);
-  }
-
-  /// The values asked for, with the amplitudes that were solved for.
-  const ParameterValues& values() const { return values_; }
-  /// What the solver works on.
-  const LinearSystem& system() const { return projectable_ ? projected_ : full_; }
-  /// Amplitudes and shape together.
-  const LinearSystem& full_system() const { return full_; }
-
- private:
-  const WeightedSamples& samples_;
-  const BatchModel& model_;
-  const Box& box_;
-  const ScaledLoss& loss_;
-  const PassOptions& passes_;
-  bool projectable_;
-  bool evaluated_ = false;
-  std::vector<double> shape_;
-  ParameterValues values_;
-  LinearSystem projected_;
-  LinearSystem full_;
-};
-
-/// The state of the variables in Ceres, block by block: the amplitudes of each channel unless they
-/// are projected out, then the shape. Blocks without variables are left out.
-struct State {
-  std::vector<VariableBlock> blocks;
-  std::vector<std::vector<double>> x;
-  std::vector<std::optional<std::size_t>> channels;  // of a block of amplitudes
-
-  ParameterValues values(ParameterValues rest, const AmplitudeSpace& space) const {
-    for (std::size_t b = 0; b < blocks.size(); ++b) {
-      for (std::size_t v = 0; v < blocks[b].size(); ++v) blocks[b][v].to(x[b][v], rest);
-    }
-    return with_dependent(std::move(rest), space);
-  }
-
-  static ParameterValues with_dependent(ParameterValues values, const AmplitudeSpace& space) {
-    if (values.amplitudes.size() == 0) return values;
-    const Eigen::MatrixXd free = values.amplitudes(space.free, Eigen::all);
-    values.amplitudes = (space.map * free).colwise() + space.offset;
-    return values;
-  }
-};
-
-/// Which variables are held at a bound.
-class HeldVariables {
- public:
-  HeldVariables(const brdf::Model& model, const Box& box, std::size_t channels, bool projectable) {
-    if (!projectable) {
-      for (std::size_t c = 0; c < channels; ++c) {
-        VariableBlock block;
-        for (std::size_t g = 0; g < box.amplitudes.free.size(); ++g) {
-          block.push_back(Variable::of_amplitude(box, g, c));
-        }
-        add(block, c);
-      }
-    }
-    VariableBlock shape;
-    for (std::size_t j = 0; j < model.shape().size(); ++j) {
-      shape.push_back(Variable::of_shape(model, box, j));
-    }
-    add(shape, std::nullopt);
-  }
-
-  State moving(const ParameterValues& values) const {
-    State state;
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      VariableBlock block;
-      std::vector<double> x;
-      for (std::size_t v = 0; v < blocks_[b].size(); ++v) {
-        if (held_[b][v]) continue;
-        block.push_back(blocks_[b][v]);
-        x.push_back(blocks_[b][v].from(values));
-      }
-      if (block.empty()) continue;
-      state.blocks.push_back(std::move(block));
-      state.x.push_back(std::move(x));
-      state.channels.push_back(channels_[b]);
-    }
-    return state;
-  }
-
-  std::size_t count() const {
-    std::size_t sum = 0;
-    for (const VariableBlock& block : blocks_) sum += block.size();
-    return sum;
-  }
-
-  /// Holds every variable that stands at a bound and whose gradient points out of the box, and lets
-  /// go of those whose gradient points inward. Returns whether anything changed.
-  bool update(const Box& box, const LinearSystem& system, ParameterValues& values) {
-    bool changed = false;
-    for (std::size_t b = 0; b < blocks_.size(); ++b) {
-      for (std::size_t v = 0; v < blocks_[b].size(); ++v) {
-        const Variable& variable = blocks_[b][v];
-        const int bound = variable.bound_reached(values);
-        double gradient = 0;
-        for (std::size_t c = 0; c < system.size(); ++c) {
-          const Eigen::VectorXd column = variable.column(system[c], c, box, values);
-          if (column.size() > 0) gradient += column.dot(system[c].residuals);
-        }
-        const bool hold = (bound < 0 && gradient > 0) || (bound > 0 && gradient < 0);
-        if (hold) variable.put_on_bound(bound, values);
-        changed = changed || hold != held_[b][v];
-        held_[b][v] = hold;
-      }
-    }
-    values = State::with_dependent(std::move(values), box.amplitudes);
-    return changed;
-  }
-
- private:
-  void add(VariableBlock& block, std::optional<std::size_t> channel) {
-    std::erase_if(block, [](const Variable& v) { return v.is_fixed(); });
-    if (block.empty()) return;
-    held_.emplace_back(block.size(), false);
-    channels_.push_back(channel);
-    blocks_.push_back(std::move(block));
-  }
-
-  std::vector<VariableBlock> blocks_;
-  std::vector<std::optional<std::size_t>> channels_;
-  std::vector<std::vector<bool>> held_;
-};
-
 /// Evaluates the problem where the variables stand, whenever Ceres has moved them.
 class Mover : public ceres::EvaluationCallback {
  public:
-  Mover(LastEvaluation& evaluation, const State& state, ParameterValues rest, const Box& box)
+  Mover(LastEvaluation& evaluation, const VariableState& state, ParameterValues rest,
+        const Box& box)
       : evaluation_(evaluation), state_(state), rest_(std::move(rest)), box_(box) {}
 
   void PrepareForEvaluation(bool /*evaluate_jacobians*/, bool /*new_evaluation_point*/) override {
@@ -197,7 +38,7 @@ class Mover : public ceres::EvaluationCallback {
 
  private:
   LastEvaluation& evaluation_;
-  const State& state_;
+  const VariableState& state_;
   ParameterValues rest_;
   const Box& box_;
 };
@@ -207,8 +48,8 @@ class ChannelCost : public ceres::CostFunction {
  public:
   /// `blocks` are those of the state that the channel depends on. `scale` multiplies the residuals,
   /// so that tolerances mean the same for every table.
-  ChannelCost(const LastEvaluation& evaluation, const State& state, std::vector<std::size_t> blocks,
-              std::size_t channel, const Box& box, double scale)
+  ChannelCost(const LastEvaluation& evaluation, const VariableState& state,
+              std::vector<std::size_t> blocks, std::size_t channel, const Box& box, double scale)
       : evaluation_(evaluation),
         state_(state),
         blocks_(std::move(blocks)),
@@ -241,7 +82,7 @@ class ChannelCost : public ceres::CostFunction {
 
  private:
   const LastEvaluation& evaluation_;
-  const State& state_;
+  const VariableState& state_;
   std::vector<std::size_t> blocks_;
   std::size_t channel_;
   const Box& box_;
@@ -254,7 +95,8 @@ struct Step {
   double gain = 0;  // of the cost
 };
 
-Step gauss_newton_step(const LastEvaluation& evaluation, const State& state, const Box& box) {
+Step gauss_newton_step(const LastEvaluation& evaluation, const VariableState& state,
+                       const Box& box) {
   const LinearSystem& system = evaluation.system();
   const Eigen::Index rows = system.front().residuals.size();
   const VariableBlock& block = state.blocks.front();
@@ -276,7 +118,7 @@ Step gauss_newton_step(const LastEvaluation& evaluation, const State& state, con
 /// Ends the iterations where only the last step is left to take.
 class LastStepCallback : public ceres::IterationCallback {
  public:
-  LastStepCallback(const LastEvaluation& evaluation, const State& state, const Box& box)
+  LastStepCallback(const LastEvaluation& evaluation, const VariableState& state, const Box& box)
       : evaluation_(evaluation), state_(state), box_(box) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
@@ -289,7 +131,7 @@ class LastStepCallback : public ceres::IterationCallback {
 
  private:
   const LastEvaluation& evaluation_;
-  const State& state_;
+  const VariableState& state_;
   const Box& box_;
 };
 
@@ -305,7 +147,7 @@ double norm_of_data(const LastEvaluation& evaluation) {
   return std::sqrt(square);
 }
 
-ceres::Solver::Options solver_options(const State& state) {
+ceres::Solver::Options solver_options(const VariableState& state) {
   ceres::Solver::Options options;
   options.max_num_iterations = 200;
   // Residuals are scaled to a table of norm 1. A noise-free table converges quadratically down to
@@ -325,8 +167,8 @@ ceres::Solver::Options solver_options(const State& state) {
   return options;
 }
 
-void add_blocks(State& state, const LastEvaluation& evaluation, const Box& box, double scale,
-                ceres::Problem& problem, ceres::Solver::Options& options) {
+void add_blocks(VariableState& state, const LastEvaluation& evaluation, const Box& box,
+                double scale, ceres::Problem& problem, ceres::Solver::Options& options) {
   for (std::size_t c = 0; c < evaluation.system().size(); ++c) {
     std::vector<std::size_t> blocks;
     std::vector<double*> pointers;
@@ -362,7 +204,7 @@ struct Moved {
   int iterations = 0;
 };
 
-Moved move_variables(State& state, const Box& box, LastEvaluation& evaluation,
+Moved move_variables(VariableState& state, const Box& box, LastEvaluation& evaluation,
                      ParameterValues& values) {
   evaluation.move_to(values);
   values = evaluation.values();
@@ -387,7 +229,7 @@ Moved move_variables(State& state, const Box& box, LastEvaluation& evaluation,
 
 /// Takes the step of Gauss and Newton that is left, if it is small enough to be certain and stays
 /// in the box: in the shape, and with it in the amplitudes.
-void take_last_step(const LastEvaluation& evaluation, const State& state, const Box& box,
+void take_last_step(const LastEvaluation& evaluation, const VariableState& state, const Box& box,
                     Solution& solution) {
   if (!evaluation.projectable() || state.blocks.empty()) return;
   const Step step = gauss_newton_step(evaluation, state, box);
@@ -430,7 +272,7 @@ Solution solve(const WeightedSamples& samples, const BatchModel& model, const Bo
   // gain: those at a bound are held, and the rest is solved again, until nothing changes.
   const std::size_t most_rounds = 2 * variables.count() + 2;
   bool settled = false;
-  State state;
+  VariableState state;
   for (std::size_t round = 0; round < most_rounds && !settled; ++round) {
     state = variables.moving(solution.values);
     const Moved moved = move_variables(state, box, evaluation, solution.values);

@@ -2,6 +2,8 @@
 // scales by their logarithm.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "fit/linear_system.h"
@@ -46,5 +48,37 @@ class Variable {
 
 /// Variables that Ceres holds in one parameter block.
 using VariableBlock = std::vector<Variable>;
+
+/// The state of the variables in Ceres, block by block: the amplitudes of each channel unless they
+/// are projected out, then the shape. Blocks without variables are left out.
+struct VariableState {
+  std::vector<VariableBlock> blocks;
+  std::vector<std::vector<double>> x;
+  std::vector<std::optional<std::size_t>> channels;  // of a block of amplitudes
+
+  /// `rest` with the variables' parameters where x says, and those that depend on them.
+  ParameterValues values(ParameterValues rest, const AmplitudeSpace& space) const;
+};
+
+/// Which variables there are, and which of them are held at a bound.
+class HeldVariables {
+ public:
+  /// Amplitudes are variables unless they are projected out.
+  HeldVariables(const brdf::Model& model, const Box& box, std::size_t channels, bool projectable);
+
+  /// The variables that are not held, where `values` have them.
+  VariableState moving(const ParameterValues& values) const;
+  std::size_t count() const;
+  /// Holds every variable that stands at a bound and whose gradient points out of the box, and lets
+  /// go of those whose gradient points inward. Returns whether anything changed.
+  bool update(const Box& box, const LinearSystem& system, ParameterValues& values);
+
+ private:
+  void add(VariableBlock& block, std::optional<std::size_t> channel);
+
+  std::vector<VariableBlock> blocks_;
+  std::vector<std::optional<std::size_t>> channels_;
+  std::vector<std::vector<bool>> held_;
+};
 
 }  // namespace gonio::fit
