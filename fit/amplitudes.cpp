@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fit/projection.h"
+#include "fit/bounded_least_squares.h"
 #include "fit/residual.h"
 
 namespace gonio::fit {

@@ -106,7 +106,12 @@ GONIO_FOR_EACH_CPU void write_rows(const ChannelColumns& in, const ScaledLoss& l
 GONIO_FOR_EACH_CPU void multiply_columns(double* to, const double* a, const double* b,
                                          std::size_t count) {
   std::fill_n(to, count, 0.0);
-  add_product(to, a, b, count);
+  add_product(to, 1, a, b, count);
+}
+
+GONIO_FOR_EACH_CPU void add_products(double* to, double factor, const double* a, const double* b,
+                                     std::size_t count) {
+  add_product(to, factor, a, b, count);
 }
 
 /// to(a, b) += a'b for the columns up to the diagonal, all column_stride apart.
@@ -190,6 +195,14 @@ class Assessor {
     }
   }
 
+  /// Sorts the worst first, and leaves as many as are to be listed.
+  void keep_largest(std::vector<Outlier>& outliers) const {
+    std::stable_sort(outliers.begin(), outliers.end(), [](const Outlier& a, const Outlier& b) {
+      return std::abs(a.residual) > std::abs(b.residual);
+    });
+    outliers.resize(std::min(outliers.size(), options_.most_listed));
+  }
+
  private:
   /// Calls add(unknown, amplitude, column) for each term of the gradient of the channel's model by
   /// the unknowns: amplitude * column.
@@ -215,10 +228,8 @@ class Assessor {
 
   void add_scores(std::size_t channel, std::size_t rows, State& state) const {
     for_gradient(channel, state, [&](std::size_t u, double amplitude, const double* column) {
-      Eigen::Map<const Eigen::ArrayXd> score(state.rows.scores.data(), Eigen::Index(rows));
-      Eigen::Map<const Eigen::ArrayXd> gradient(column, Eigen::Index(rows));
-      state.scores.col(Eigen::Index(u)).head(Eigen::Index(rows)).array() +=
-          amplitude * score * gradient;
+      add_products(state.scores.col(Eigen::Index(u)).data(), amplitude, state.rows.scores.data(),
+                   column, rows);
     });
   }
 
@@ -243,7 +254,7 @@ class Assessor {
       ++state.outlier_count;
       state.outliers.push_back({chunk.samples[r], channel, -residual});
     }
-    keep_largest(state.outliers, 4 * most_outliers);
+    if (state.outliers.size() / 4 > options_.most_listed) keep_largest(state.outliers);
   }
 
   void add_variances(const SampleChunk& chunk, Eigen::Index channel, State& state) const {
@@ -255,26 +266,6 @@ class Assessor {
     }
   }
 
-  /// Leaves the `count` largest residuals, once there are more than that.
-  static void keep_largest(std::vector<Outlier>& outliers, std::size_t count) {
-    if (outliers.size() <= count) return;
-    sort_outliers(outliers);
-    outliers.resize(most_outliers);
-  }
-
-  static void sort_outliers(std::vector<Outlier>& outliers) {
-    std::stable_sort(outliers.begin(), outliers.end(), [](const Outlier& a, const Outlier& b) {
-      return std::abs(a.residual) > std::abs(b.residual);
-    });
-  }
-
- public:
-  static void sort_and_cut(std::vector<Outlier>& outliers) {
-    sort_outliers(outliers);
-    outliers.resize(std::min(outliers.size(), most_outliers));
-  }
-
- private:
   const WeightedSamples& samples_;
   const BatchModel& model_;
   const ParameterValues& values_;
@@ -303,8 +294,8 @@ Assessment assess(const WeightedSamples& samples, const BatchModel& model,
   const std::vector<Part> parts = chunk_pass(
       samples, passes, [&] { return assessor.make_state(); },
       [&](const SampleChunk& chunk, State& state) { assessor.fold(chunk, state); },
-      [](State& state) {
-        if (state.outliers.size() > most_outliers) Assessor::sort_and_cut(state.outliers);
+      [&](State& state) {
+        if (state.outliers.size() > options.most_listed) assessor.keep_largest(state.outliers);
         return Part{state.errors,        state.score_products,      state.curvature,
                     state.outlier_count, std::move(state.outliers), state.log_variance};
       });
@@ -323,7 +314,7 @@ Assessment assess(const WeightedSamples& samples, const BatchModel& model,
     result.outliers.insert(result.outliers.end(), part.outliers.begin(), part.outliers.end());
     result.log_variance += part.log_variance;
   }
-  Assessor::sort_and_cut(result.outliers);
+  assessor.keep_largest(result.outliers);
   for (Eigen::MatrixXd* matrix : {&result.score_products, &result.curvature}) {
     const Eigen::MatrixXd whole = matrix->selfadjointView<Eigen::Lower>();
     *matrix = whole;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -55,16 +56,17 @@ struct Assessment {
   double log_variance = 0;
 };
 
+/// At most this many outliers are listed unless more are asked for.
+inline constexpr std::size_t most_outliers = 1000;
+
 /// What is wanted of the pass.
 struct AssessmentOptions {
   ScaledLoss loss = {};
   bool scores = false;
   /// Residuals beyond it are outliers; infinity: none are looked for.
   double outlier_threshold = std::numeric_limits<double>::infinity();
+  std::size_t most_listed = most_outliers;
 };
-
-/// At most this many outliers are listed.
-inline constexpr std::size_t most_outliers = 1000;
 
 /// `floors` as WeightedSamples takes them, always needed here.
 Assessment assess(const WeightedSamples& samples, const BatchModel& model,

@@ -33,11 +33,13 @@ inline void add_multiple(double* to, double factor, const double* from, std::siz
   }
 }
 
-/// to += a * b, elementwise.
-inline void add_product(double* to, const double* a, const double* b, std::size_t count) {
+/// to += factor * a * b, elementwise.
+inline void add_product(double* to, double factor, const double* a, const double* b,
+                        std::size_t count) {
   using brdf::Pack;
+  const Pack f(factor);
   for (std::size_t i = 0; i < count; i += Pack::size) {
-    (Pack::load(to + i) + Pack::load(a + i) * Pack::load(b + i)).store(to + i);
+    (Pack::load(to + i) + f * Pack::load(a + i) * Pack::load(b + i)).store(to + i);
   }
 }
 

@@ -41,6 +41,21 @@ void fold_chunk(const SampleChunk& chunk, const WeightedSamples& samples, const 
   }
 }
 
+Compressed compressed_of(const std::vector<Triangle>& triangles, std::size_t channels) {
+  Compressed compressed;
+  compressed.projected.resize(triangles.front().factor.cols(), Eigen::Index(channels));
+  compressed.unreachable.resize(Eigen::Index(channels));
+  Eigen::Index channel = 0;
+  for (const Triangle& triangle : triangles) {
+    const Eigen::Index sides = triangle.projected.cols();
+    compressed.factors.push_back(triangle.factor);
+    compressed.projected.middleCols(channel, sides) = triangle.projected;
+    compressed.unreachable.segment(channel, sides) = triangle.unreachable;
+    channel += sides;
+  }
+  return compressed;
+}
+
 }  // namespace
 
 Compressed compress(const WeightedSamples& samples, const BatchModel& model,
@@ -53,20 +68,18 @@ Compressed compress(const WeightedSamples& samples, const BatchModel& model,
         fold_chunk(chunk, samples, model, shape, with_derivatives, triangles);
       },
       triangles_of);
-  const std::vector<Triangle> total = merged(parts);
+  return compressed_of(merged(parts), samples.channel_count());
+}
 
-  Compressed compressed;
-  compressed.projected.resize(Eigen::Index(columns), Eigen::Index(samples.channel_count()));
-  compressed.unreachable.resize(Eigen::Index(samples.channel_count()));
-  Eigen::Index channel = 0;
-  for (const Triangle& triangle : total) {
-    const Eigen::Index sides = triangle.projected.cols();
-    compressed.factors.push_back(triangle.factor);
-    compressed.projected.middleCols(channel, sides) = triangle.projected;
-    compressed.unreachable.segment(channel, sides) = triangle.unreachable;
-    channel += sides;
+Compressed compress(const WeightedSamples& samples, std::span<const SampleChunk> chunks,
+                    const BatchModel& model, std::span<const double> shape, bool with_derivatives) {
+  std::vector<Triangulation> triangles =
+      make_triangulations(samples, model.column_count(with_derivatives));
+  for (const SampleChunk& chunk : chunks) {
+    if (chunk.directions.count == 0) continue;
+    fold_chunk(chunk, samples, model, shape, with_derivatives, triangles);
   }
-  return compressed;
+  return compressed_of(triangles_of(triangles), samples.channel_count());
 }
 
 }  // namespace gonio::fit

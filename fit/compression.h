@@ -34,4 +34,8 @@ Compressed compress(const WeightedSamples& samples, const BatchModel& model,
                     std::span<const double> shape, bool with_derivatives,
                     const PassOptions& options);
 
+/// The same of chunks that were gathered before.
+Compressed compress(const WeightedSamples& samples, std::span<const SampleChunk> chunks,
+                    const BatchModel& model, std::span<const double> shape, bool with_derivatives);
+
 }  // namespace gonio::fit

@@ -114,8 +114,8 @@ Solution best_of(const WeightedSamples& samples, const Problem& problem, const S
                  std::span<const Start> starts) {
   std::optional<Solution> best;
   for (const Start& start : starts) {
-    Solution solution =
-        solve(samples, problem.model, problem.box, loss, start.values, problem.passes);
+    Solution solution = solve(samples, problem.model, problem.box, loss, start.values,
+                              final_precision, problem.passes);
     solution.iterations += start.iterations;
     if (!best || solution.cost < best->cost) best = std::move(solution);
   }
@@ -124,8 +124,8 @@ Solution best_of(const WeightedSamples& samples, const Problem& problem, const S
 
 Solution solved_again(const WeightedSamples& samples, const Problem& problem,
                       const ScaledLoss& loss, const Solution& before) {
-  Solution solution =
-      solve(samples, problem.model, problem.box, loss, before.values, problem.passes);
+  Solution solution = solve(samples, problem.model, problem.box, loss, before.values,
+                            final_precision, problem.passes);
   solution.iterations += before.iterations;
   return solution;
 }

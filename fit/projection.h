@@ -29,10 +29,4 @@ Projected project(const Compressed& compressed, const BatchModel& model, const B
 LinearSystem linear_system_of(const Compressed& compressed, const BatchModel& model,
                               const Eigen::MatrixXd& amplitudes);
 
-/// Minimises |matrix x - rhs|^2 subject to lower <= x <= upper (elementwise). Exact for the few
-/// unknowns it is meant for: the active sets are enumerated if the free solution is not inside.
-/// Unknowns that the matrix does not determine are 0, or the bound nearest to 0.
-Eigen::VectorXd bounded_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& rhs,
-                                      const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
-
 }  // namespace gonio::fit

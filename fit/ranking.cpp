@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 #include <set>
 
 #include "fit/compression.h"
@@ -50,18 +52,43 @@ std::set<std::string> undetermined_parameters(const WeightedSamples& samples,
   return names;
 }
 
+/// rho_s = 1 - rho_d can be asked of it.
+bool can_be_homogeneous(const brdf::Model& model, std::span<const std::string> channels) {
+  return model.amplitudes().size() == 2 && has_parameter(model, channels, "rho_d") &&
+         has_parameter(model, channels, "rho_s");
+}
+
+/// Where the richer relative stands that makes a model no better; none if there is none.
+std::optional<std::ptrdiff_t> place_of_needless_relative(std::span<const FitResult> results,
+                                                         const std::vector<std::size_t>& order,
+                                                         const FitResult& result) {
+  constexpr double significance = 0.05;
+  if (!result.nested || result.nested->p_value <= significance) return std::nullopt;
+  const auto found = std::find_if(order.begin(), order.end(), [&](std::size_t i) {
+    return results[i].model.name() == result.nested->in;
+  });
+  if (found == order.end()) return std::nullopt;
+  return found - order.begin();
+}
+
 }  // namespace
 
 std::vector<std::string> determinable_models(const table::SampleTable& table,
                                              const Options& options,
-                                             std::vector<std::string>& excluded) {
+                                             std::vector<std::string>& excluded,
+                                             brdf::Frame frame) {
   Options plain;
   plain.metric = Metric::l2;
   plain.max_theta_deg = options.max_theta_deg;
   std::vector<std::string> names;
   std::optional<table::SampleTable> subset;
   for (const std::string& name : brdf::model_names()) {
-    const brdf::Model model(name);
+    const brdf::Model model(name, frame);
+    if (options.homogeneous && !can_be_homogeneous(model, table.channels)) {
+      excluded.push_back(
+          fmt::format("{}: left out, it has no rho_s that could be 1 - rho_d", name));
+      continue;
+    }
     const BatchModel batch(model);
     if (!subset) {
       const table::SampleFilter filter(table, plain.max_theta_deg);
@@ -87,6 +114,20 @@ std::vector<std::string> determinable_models(const table::SampleTable& table,
 bool ranks_before(const FitResult& a, const FitResult& b) {
   if (a.metric_error != b.metric_error) return a.metric_error < b.metric_error;
   return a.unknowns.size() < b.unknowns.size();
+}
+
+std::vector<std::size_t> ranking(std::span<const FitResult> results) {
+  std::vector<std::size_t> by_error(results.size());
+  std::iota(by_error.begin(), by_error.end(), std::size_t(0));
+  std::stable_sort(by_error.begin(), by_error.end(), [&](std::size_t a, std::size_t b) {
+    return ranks_before(results[a], results[b]);
+  });
+  std::vector<std::size_t> order;
+  for (const std::size_t i : by_error) {
+    const auto relative = place_of_needless_relative(results, order, results[i]);
+    order.insert(order.begin() + relative.value_or(std::ptrdiff_t(order.size())), i);
+  }
+  return order;
 }
 
 }  // namespace gonio::fit

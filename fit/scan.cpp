@@ -12,7 +12,7 @@ namespace {
 
 /// Up to two dimensions are scanned on a grid: a basin of attraction in a roughness spans about a
 /// factor of two. More are scanned at scattered points.
-std::size_t points_per_axis(std::size_t dimensions) { return dimensions == 1 ? 24 : 12; }
+std::size_t points_per_axis(std::size_t dimensions) { return dimensions == 1 ? 20 : 10; }
 std::size_t scattered_points(std::size_t dimensions) { return std::size_t(256) << dimensions; }
 std::size_t most_minima(std::size_t dimensions) { return dimensions <= 2 ? 4 : 10; }
 

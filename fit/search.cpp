@@ -20,7 +20,7 @@ namespace gonio::fit {
 namespace {
 
 /// Samples that are scanned: enough to tell the basins apart.
-constexpr std::size_t scanned_samples = 512;
+constexpr std::size_t scanned_samples = 256;
 /// A minimum whose cost on the subset is this much above the best one's cannot win on the table.
 constexpr double hopeless_cost_ratio = 1.2;
 /// In the scan neither the solution nor the subset is exact.
@@ -57,7 +57,7 @@ class Level {
       return best_amplitudes(samples_, chunks_, model_, box_, shape, options_.loss);
     }
     const Projected projected =
-        project(compress(samples_, model_, shape, false, {}), model_, box_, false);
+        project(compress(samples_, chunks_, model_, shape, false), model_, box_, false);
     return {projected.amplitudes, cost_of(projected.system)};
   }
 
@@ -75,7 +75,8 @@ class Level {
     const ScaledLoss loss = loss_at(starts.front().values);
     std::vector<Solution> solutions(starts.size());
     table::parallel_for(starts.size(), options_.threads, [&](std::size_t s) {
-      solutions[s] = fit::solve(samples_, model_, box_, loss, starts[s].values, {});
+      solutions[s] =
+          fit::solve(samples_, model_, box_, loss, starts[s].values, start_precision, {});
       solutions[s].iterations += starts[s].iterations;
       solutions[s].values = canonical(model_.model(), box_, std::move(solutions[s].values));
     });

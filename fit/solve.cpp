@@ -11,17 +11,15 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
+#include "fit/bounded_least_squares.h"
 #include "fit/evaluation.h"
-#include "fit/projection.h"
 #include "fit/variables.h"
 
 namespace gonio::fit {
 namespace {
 
-/// Below this share of the cost, what another step would gain is certain enough to be taken without
-/// looking again: the error of the step is of the order of its square.
-constexpr double last_step_share = 1e-11;
 /// With more channels than this the amplitudes are eliminated channel by channel.
 constexpr std::size_t most_dense_channels = 8;
 
@@ -93,6 +91,8 @@ class ChannelCost : public ceres::CostFunction {
 struct Step {
   Eigen::VectorXd change;
   double gain = 0;  // of the cost
+
+  double size() const { return change.lpNorm<Eigen::Infinity>(); }
 };
 
 Step gauss_newton_step(const LastEvaluation& evaluation, const VariableState& state,
@@ -115,24 +115,36 @@ Step gauss_newton_step(const LastEvaluation& evaluation, const VariableState& st
   return step;
 }
 
-/// Ends the iterations where only the last step is left to take.
+/// Ends the iterations where the step after the next one would be smaller than the precision that
+/// is asked for: the next one can be taken without looking at the samples again. Steps shrink at
+/// least as much from one to the next as they did before.
 class LastStepCallback : public ceres::IterationCallback {
  public:
-  LastStepCallback(const LastEvaluation& evaluation, const VariableState& state, const Box& box)
-      : evaluation_(evaluation), state_(state), box_(box) {}
+  LastStepCallback(const LastEvaluation& evaluation, const VariableState& state, const Box& box,
+                   double precision)
+      : evaluation_(evaluation), state_(state), box_(box), precision_(precision) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    if (!summary.step_is_valid && summary.iteration > 0) return ceres::SOLVER_CONTINUE;
-    return gauss_newton_step(evaluation_, state_, box_).gain <=
-                   last_step_share * cost_of(evaluation_.system())
-               ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-               : ceres::SOLVER_CONTINUE;
+    if (!summary.step_is_successful && summary.iteration > 0) return ceres::SOLVER_CONTINUE;
+    Step step = gauss_newton_step(evaluation_, state_, box_);
+    const double size = step.size();
+    const double ratio = previous_size_ > size ? size / previous_size_ : 1;
+    previous_size_ = size;
+    if (!(size * ratio <= precision_)) return ceres::SOLVER_CONTINUE;
+    step_ = std::move(step);
+    return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
   }
+
+  /// The step that is left to take, if the iterations were ended here.
+  const std::optional<Step>& step() const { return step_; }
 
  private:
   const LastEvaluation& evaluation_;
   const VariableState& state_;
   const Box& box_;
+  double precision_;
+  double previous_size_ = 0;
+  std::optional<Step> step_;
 };
 
 /// The norm of the residuals that a model of amplitude 0 would have, to first order.
@@ -147,12 +159,12 @@ double norm_of_data(const LastEvaluation& evaluation) {
   return std::sqrt(square);
 }
 
-ceres::Solver::Options solver_options(const VariableState& state) {
+ceres::Solver::Options solver_options(const VariableState& state, double precision) {
   ceres::Solver::Options options;
   options.max_num_iterations = 200;
   // Residuals are scaled to a table of norm 1. A noise-free table converges quadratically down to
   // rounding, so that only the step may end it; a noisy one ends when the cost stands still.
-  options.function_tolerance = 1e-12;
+  options.function_tolerance = std::max(1e-12, precision * precision);
   options.gradient_tolerance = 1e-17;
   options.parameter_tolerance = 1e-13;
   options.logging_type = ceres::SILENT;
@@ -202,10 +214,11 @@ void add_blocks(VariableState& state, const LastEvaluation& evaluation, const Bo
 struct Moved {
   bool converged = true;
   int iterations = 0;
+  std::optional<Step> last_step;  // that is left to take
 };
 
-Moved move_variables(VariableState& state, const Box& box, LastEvaluation& evaluation,
-                     ParameterValues& values) {
+Moved move_variables(VariableState& state, const Box& box, double precision,
+                     LastEvaluation& evaluation, ParameterValues& values) {
   evaluation.move_to(values);
   values = evaluation.values();
   if (state.blocks.empty()) return {};
@@ -214,9 +227,9 @@ Moved move_variables(VariableState& state, const Box& box, LastEvaluation& evalu
   ceres::Problem::Options problem_options;
   problem_options.evaluation_callback = &mover;
   ceres::Problem problem(problem_options);
-  ceres::Solver::Options options = solver_options(state);
+  ceres::Solver::Options options = solver_options(state, precision);
   add_blocks(state, evaluation, box, norm > 0 ? 1 / norm : 1, problem, options);
-  LastStepCallback last_step(evaluation, state, box);
+  LastStepCallback last_step(evaluation, state, box, precision);
   if (evaluation.projectable()) options.callbacks.push_back(&last_step);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
@@ -224,16 +237,11 @@ Moved move_variables(VariableState& state, const Box& box, LastEvaluation& evalu
   values = evaluation.values();
   return {summary.termination_type == ceres::CONVERGENCE ||
               summary.termination_type == ceres::USER_SUCCESS,
-          std::max(int(summary.iterations.size()) - 1, 0)};
+          std::max(int(summary.iterations.size()) - 1, 0), last_step.step()};
 }
 
-/// Takes the step of Gauss and Newton that is left, if it is small enough to be certain and stays
-/// in the box: in the shape, and with it in the amplitudes.
-void take_last_step(const LastEvaluation& evaluation, const VariableState& state, const Box& box,
-                    Solution& solution) {
-  if (!evaluation.projectable() || state.blocks.empty()) return;
-  const Step step = gauss_newton_step(evaluation, state, box);
-  if (!(step.gain <= last_step_share * solution.cost)) return;
+/// Takes a step, if it stays in the box: in the shape, and with it in the amplitudes.
+void take_step(const Step& step, const VariableState& state, const Box& box, Solution& solution) {
   ParameterValues moved = solution.values;
   const VariableBlock& block = state.blocks.front();
   for (std::size_t v = 0; v < block.size(); ++v) {
@@ -263,7 +271,8 @@ void take_last_step(const LastEvaluation& evaluation, const VariableState& state
 }  // namespace
 
 Solution solve(const WeightedSamples& samples, const BatchModel& model, const Box& box,
-               const ScaledLoss& loss, ParameterValues start, const PassOptions& passes) {
+               const ScaledLoss& loss, ParameterValues start, double precision,
+               const PassOptions& passes) {
   LastEvaluation evaluation(samples, model, box, loss, passes);
   HeldVariables variables(model.model(), box, samples.channel_count(), evaluation.projectable());
   Solution solution;
@@ -273,9 +282,10 @@ Solution solve(const WeightedSamples& samples, const BatchModel& model, const Bo
   const std::size_t most_rounds = 2 * variables.count() + 2;
   bool settled = false;
   VariableState state;
+  Moved moved;
   for (std::size_t round = 0; round < most_rounds && !settled; ++round) {
     state = variables.moving(solution.values);
-    const Moved moved = move_variables(state, box, evaluation, solution.values);
+    moved = move_variables(state, box, precision, evaluation, solution.values);
     solution.converged = moved.converged;
     solution.iterations += moved.iterations;
     settled = !variables.update(box, evaluation.system(), solution.values);
@@ -285,7 +295,7 @@ Solution solve(const WeightedSamples& samples, const BatchModel& model, const Bo
   solution.converged = solution.converged && settled;
   solution.cost = cost_of(evaluation.system());
   solution.system = evaluation.full_system();
-  take_last_step(evaluation, state, box, solution);
+  if (moved.last_step) take_step(*moved.last_step, state, box, solution);
   return solution;
 }
 

@@ -19,10 +19,16 @@ struct Solution {
   int iterations = 0;
 };
 
+/// How far the last step may be from the next one: of logarithms of roughnesses, of angles in
+/// radians.
+inline constexpr double final_precision = 1e-9;
+inline constexpr double start_precision = 1e-5;
+
 /// Minimises over the box from `start`, whose shape must lie inside. Where the problem is
 /// projectable (joint_system.h) the amplitudes are solved for and those of `start` play no part.
 /// Roughnesses and other scales are walked in their logarithm, angles around their period.
 Solution solve(const WeightedSamples& samples, const BatchModel& model, const Box& box,
-               const ScaledLoss& loss, ParameterValues start, const PassOptions& passes);
+               const ScaledLoss& loss, ParameterValues start, double precision,
+               const PassOptions& passes);
 
 }  // namespace gonio::fit

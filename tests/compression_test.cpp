@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "fit/bounded_least_squares.h"
 #include "fit/projection.h"
 #include "instrument/synthesize.h"
 #include "tests/ward_materials.h"
