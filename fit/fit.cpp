@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "fit/diagnose.h"
 #include "fit/robust_scale.h"
@@ -131,9 +132,35 @@ Solution solved_again(const WeightedSamples& samples, const Problem& problem,
 }
 
 /// The scale follows from the residuals, and they from the scale: a few rounds settle both.
+class ScaleSearch {
+ public:
+  explicit ScaleSearch(double first) : scale_(first) {}
+
+  double scale() const { return scale_; }
+  /// `found` is the scale of the residuals that scale() leads to. True if it is the same.
+  bool is_settled(double found) {
+    constexpr double tolerance = 1e-6;
+    const double change = found - scale_;
+    if (std::abs(change) <= tolerance * found) return true;
+    // The secant through this change and the one before, where it is sane.
+    double next = found;
+    if (previous_) {
+      const double slope = (change - previous_->second) / (scale_ - previous_->first);
+      const double secant = scale_ - change / slope;
+      if (secant > 0.5 * scale_ && secant < 2 * scale_) next = secant;
+    }
+    previous_ = {scale_, change};
+    scale_ = next;
+    return false;
+  }
+
+ private:
+  double scale_;
+  std::optional<std::pair<double, double>> previous_;  // a scale and its change
+};
+
 Solution solve_with_found_scale(const WeightedSamples& samples, const Problem& problem,
                                 std::span<const Start> starts, ScaledLoss& loss) {
-  constexpr double tolerance = 1e-6;
   const double least = least_deviation(samples, problem.passes);
   double deviation = 0;
   const auto scale_at = [&](const ParameterValues& values) {
@@ -141,15 +168,14 @@ Solution solve_with_found_scale(const WeightedSamples& samples, const Problem& p
         robust_deviation(samples, problem.model, values, deviation, problem.passes), least);
     return efficient_scale(loss.loss) * deviation;
   };
-  loss.scale = scale_at(starts.front().values);
+  ScaleSearch search(scale_at(starts.front().values));
+  loss.scale = search.scale();
   Solution solution = best_of(samples, problem, loss, starts);
-  bool settled = false;
+  bool settled = search.is_settled(scale_at(solution.values));
   for (int round = 0; round < most_rounds && !settled; ++round) {
-    const double scale = scale_at(solution.values);
-    settled = std::abs(scale - loss.scale) <= tolerance * scale;
-    if (settled) break;
-    loss.scale = scale;
+    loss.scale = search.scale();
     solution = solved_again(samples, problem, loss, solution);
+    settled = search.is_settled(scale_at(solution.values));
   }
   solution.converged = solution.converged && settled;
   return solution;

@@ -1,10 +1,12 @@
 #include "fit/joint_system.h"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <utility>
 
+#include "fit/columns.h"
 #include "fit/residual.h"
 #include "fit/triangle.h"
 
@@ -12,6 +14,7 @@ namespace gonio::fit {
 namespace {
 
 using brdf::Pack;
+using brdf::PackMask;
 
 /// The columns of one channel that its rows are made of, all padded_count() long.
 struct ChannelColumns {
@@ -22,11 +25,12 @@ struct ChannelColumns {
   const double* weights;
 };
 
-/// Writes each row's weighted residual, and what its Jacobian has to be multiplied by; returns the
+/// Writes each row's weighted residual, what its Jacobian has to be multiplied by, and the share by
+/// which the loss' curvature, rho' + 2 s rho'', is less than the row's weight, rho'; returns the
 /// sum of weight * scale^2 * (rho - rho' s).
 template <class MetricResidual>
 GONIO_FOR_EACH_CPU double weigh(const ChannelColumns& in, const ScaledLoss& loss, std::size_t count,
-                                double* residuals, double* slopes) {
+                                double* residuals, double* slopes, double* lacks) {
   const Pack scale(loss.scale);
   Pack beyond(0);
   for (std::size_t i = 0; i < count; i += Pack::size) {
@@ -38,20 +42,41 @@ GONIO_FOR_EACH_CPU double weigh(const ChannelColumns& in, const ScaledLoss& loss
     const Pack root = sqrt(weight * lossy.slope);
     (root * residual.value).store(residuals + i);
     (root * residual.slope).store(slopes + i);
+    const PackMask counts = less(Pack(0), lossy.slope);
+    select(counts, Pack(1) - lossy.influence / select(counts, lossy.slope, Pack(1)), Pack(0))
+        .store(lacks + i);
     // Below rounding for small s, where it would come out negative as well.
     beyond += weight * larger(Pack(0), lossy.rho - lossy.slope * s);
   }
   return beyond.sum() * loss.scale * loss.scale;
 }
 
+/// lacking(a, b) += the sum over the rows of lack * a * b for the columns up to the diagonal;
+/// `weighted` is room for one column.
+GONIO_FOR_EACH_CPU void add_lacking(const double* rows, const double* lacks, std::size_t columns,
+                                    std::size_t count, double* weighted, double* lacking) {
+  for (std::size_t a = 0; a < columns; ++a) {
+    const double* column = rows + a * std::size_t(column_stride);
+    std::fill_n(weighted, count, 0.0);
+    add_product(weighted, 1, lacks, column, count);
+    for (std::size_t b = 0; b <= a; ++b) {
+      lacking[a + b * columns] +=
+          inner_product(weighted, rows + b * std::size_t(column_stride), count);
+    }
+  }
+}
+
 struct State {
   std::vector<Triangulation> channels;
+  /// Per channel J'J of the rows, each times its lack of curvature; empty without a loss.
+  std::vector<Eigen::MatrixXd> lacking;
   Eigen::VectorXd beyond;
   Eigen::MatrixXd columns;  // basis functions and derivatives
 };
 
 struct Part {
   std::vector<Triangle> channels;
+  std::vector<Eigen::MatrixXd> lacking;
   Eigen::VectorXd beyond;
 };
 
@@ -63,6 +88,8 @@ void fold_chunk(const SampleChunk& chunk, const WeightedSamples& samples, const 
   model.evaluate(chunk.directions, values.shape, true, state.columns);
   const auto basis = state.columns.topLeftCorner(rows, amplitude_count);
   alignas(64) std::array<double, chunk_rows> slopes;
+  alignas(64) std::array<double, chunk_rows> lacks;
+  alignas(64) std::array<double, chunk_rows> weighted;
   for (Eigen::Index c = 0; c < chunk.values.cols(); ++c) {
     const Eigen::VectorXd expected = basis * values.amplitudes.col(c);
     Eigen::MatrixXd& out = state.channels[std::size_t(c)].rows();
@@ -71,8 +98,8 @@ void fold_chunk(const SampleChunk& chunk, const WeightedSamples& samples, const 
         chunk.factors.col(samples.factor_column(c)).data(), chunk.weights.data()};
     state.beyond[c] += with_residual(samples.metric(), [&](auto residual) {
       return weigh<decltype(residual)>(in, loss, std::size_t(rows),
-                                       out.col(amplitude_count + shape_count).data(),
-                                       slopes.data());
+                                       out.col(amplitude_count + shape_count).data(), slopes.data(),
+                                       lacks.data());
     });
     out.topLeftCorner(rows, amplitude_count) = basis;
     out.block(0, amplitude_count, rows, shape_count).setZero();
@@ -84,8 +111,66 @@ void fold_chunk(const SampleChunk& chunk, const WeightedSamples& samples, const 
     }
     out.topLeftCorner(rows, amplitude_count + shape_count).array().colwise() *=
         Eigen::Map<const Eigen::ArrayXd>(slopes.data(), rows);
+    if (!state.lacking.empty()) {
+      add_lacking(out.data(), lacks.data(), std::size_t(amplitude_count + shape_count),
+                  std::size_t(rows), weighted.data(), state.lacking[std::size_t(c)].data());
+    }
     state.channels[std::size_t(c)].fold(chunk.directions.count);
   }
+}
+
+/// What must be left of a direction's curvature for Newton's step to be worth it.
+constexpr double least_curvature = 0.02;
+/// Columns nearer than this to dependent on each other are left to the plain weights.
+constexpr double least_pivot = 1e-6;
+
+/// Gauss and Newton's rows, weighed by rho', see more curvature than a robust loss has, and steps
+/// come out short. Turns and shrinks the rows so that J'J becomes the loss' own curvature,
+/// sum of (rho' + 2 s rho'') J'J, as far as it is positive; J'r stays what it is. `factor` and
+/// `projected` are the triangle of the rows, `cost` is the channel's.
+void take_curvature_of_loss(const Eigen::MatrixXd& lacking, double cost, Eigen::MatrixXd& factor,
+                            Eigen::VectorXd& projected) {
+  const Eigen::VectorXd norms = factor.colwise().norm();
+  if (!((factor.diagonal().array().abs() > least_pivot * norms.array()).all())) return;
+  const Eigen::MatrixXd transposed = factor.transpose();
+  const auto lower = transposed.triangularView<Eigen::Lower>();
+  Eigen::MatrixXd whitened = lacking.selfadjointView<Eigen::Lower>();
+  whitened = lower.solve(whitened);
+  whitened = lower.solve(Eigen::MatrixXd(whitened.transpose()));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      Eigen::MatrixXd::Identity(whitened.rows(), whitened.cols()) - whitened);
+  if (eigen.info() != Eigen::Success) return;
+  const Eigen::ArrayXd roots = eigen.eigenvalues().array().max(least_curvature).min(1.0).sqrt();
+  const Eigen::VectorXd turned =
+      ((eigen.eigenvectors().transpose() * projected).array() / roots).matrix();
+  // The squares of all rows have to sum to twice the cost.
+  if (!(turned.squaredNorm() < cost)) return;
+  const Eigen::MatrixXd rows =
+      roots.matrix().asDiagonal() * (eigen.eigenvectors().transpose() * factor);
+  factor = rows;
+  projected = turned;
+}
+
+ChannelSystem channel_system_of(const Triangle& triangle, const Eigen::MatrixXd* lacking,
+                                double beyond, Eigen::Index amplitude_count) {
+  Eigen::MatrixXd factor = triangle.factor;
+  Eigen::VectorXd projected = triangle.projected.col(0);
+  const double double_cost =
+      projected.squaredNorm() + triangle.unreachable[0] * triangle.unreachable[0] + beyond;
+  double rest = std::hypot(triangle.unreachable[0], std::sqrt(beyond));
+  if (lacking != nullptr) {
+    take_curvature_of_loss(*lacking, double_cost / 2, factor, projected);
+    rest = std::sqrt(std::max(double_cost - projected.squaredNorm(), 0.0));
+  }
+  const Eigen::Index rows = factor.rows();
+  ChannelSystem channel;
+  channel.amplitude_jacobian.setZero(rows + 1, amplitude_count);
+  channel.amplitude_jacobian.topRows(rows) = factor.leftCols(amplitude_count);
+  channel.shape_jacobian.setZero(rows + 1, factor.cols() - amplitude_count);
+  channel.shape_jacobian.topRows(rows) = factor.rightCols(factor.cols() - amplitude_count);
+  channel.residuals.resize(rows + 1);
+  channel.residuals << projected, rest;
+  return channel;
 }
 
 }  // namespace
@@ -101,6 +186,9 @@ LinearSystem joint_system_of(const WeightedSamples& samples, const BatchModel& m
       samples, passes,
       [&] {
         return State{std::vector<Triangulation>(channels, Triangulation(columns, 1)),
+                     std::vector<Eigen::MatrixXd>(
+                         loss.loss == Loss::none ? 0 : channels,
+                         Eigen::MatrixXd::Zero(Eigen::Index(columns), Eigen::Index(columns))),
                      Eigen::VectorXd::Zero(Eigen::Index(channels)),
                      Eigen::MatrixXd(column_stride, Eigen::Index(model.column_count(true)))};
       },
@@ -108,30 +196,24 @@ LinearSystem joint_system_of(const WeightedSamples& samples, const BatchModel& m
         fold_chunk(chunk, samples, model, values, loss, state);
       },
       [](const State& state) {
-        return Part{triangles_of(state.channels), state.beyond};
+        return Part{triangles_of(state.channels), state.lacking, state.beyond};
       });
   std::vector<std::vector<Triangle>> triangles;
-  Eigen::VectorXd beyond = Eigen::VectorXd::Zero(Eigen::Index(channels));
-  for (const Part& part : parts) {
-    triangles.push_back(part.channels);
-    beyond += part.beyond;
+  std::vector<Eigen::MatrixXd> lacking = parts.front().lacking;
+  Eigen::VectorXd beyond = parts.front().beyond;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    triangles.push_back(parts[p].channels);
+    if (p == 0) continue;
+    beyond += parts[p].beyond;
+    for (std::size_t c = 0; c < lacking.size(); ++c) lacking[c] += parts[p].lacking[c];
   }
 
   LinearSystem system;
-  const auto rows = Eigen::Index(columns);
   for (const Triangle& triangle : merged(triangles)) {
-    ChannelSystem channel;
-    channel.amplitude_jacobian.setZero(rows + 1, Eigen::Index(model.amplitude_count()));
-    channel.amplitude_jacobian.topRows(rows) =
-        triangle.factor.leftCols(Eigen::Index(model.amplitude_count()));
-    channel.shape_jacobian.setZero(rows + 1, Eigen::Index(model.shape_count()));
-    channel.shape_jacobian.topRows(rows) =
-        triangle.factor.rightCols(Eigen::Index(model.shape_count()));
-    channel.residuals.resize(rows + 1);
-    channel.residuals.head(rows) = triangle.projected.col(0);
-    channel.residuals[rows] =
-        std::hypot(triangle.unreachable[0], std::sqrt(beyond[Eigen::Index(system.size())]));
-    system.push_back(std::move(channel));
+    const std::size_t c = system.size();
+    system.push_back(channel_system_of(triangle, lacking.empty() ? nullptr : &lacking[c],
+                                       beyond[Eigen::Index(c)],
+                                       Eigen::Index(model.amplitude_count())));
   }
   return system;
 }
