@@ -139,7 +139,9 @@ class ScaleSearch {
   double scale() const { return scale_; }
   /// `found` is the scale of the residuals that scale() leads to. True if it is the same.
   bool is_settled(double found) {
-    constexpr double tolerance = 1e-6;
+    // Far below what the median is uncertain by; and with tukey, whose cost has many small folds, a
+    // smaller change of the scale may throw the residuals to and fro.
+    constexpr double tolerance = 1e-3;
     const double change = found - scale_;
     if (std::abs(change) <= tolerance * found) return true;
     // The secant through this change and the one before, where it is sane.

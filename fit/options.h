@@ -76,7 +76,8 @@ struct Options {
   Loss loss = Loss::none;
   /// The loss' scale in the unit of the metric's residual. Without it: the residuals' standard
   /// deviation as their median magnitude tells it (1.4826 times it), times what makes the loss 95 %
-  /// efficient for normal noise: 1.345 (huber), 2.385 (cauchy), 4.685 (tukey).
+  /// efficient for normal noise: 1.345 (huber), 2.385 (cauchy), 4.685 (tukey); to 0.1 %, as it and
+  /// the residuals depend on each other.
   std::optional<double> loss_scale = {};
   Covariance covariance = Covariance::automatic;
   /// Samples with a polar angle beyond it are left out (inclusive, + 1e-6 deg).
