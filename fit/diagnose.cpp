@@ -35,6 +35,18 @@ std::vector<std::string> shape_names(const brdf::Model& model, std::size_t term)
   return names;
 }
 
+/// A term as users tell it from the others: with the names of its amplitudes where there are two of
+/// its kind.
+std::string term_name(const brdf::Model& model, std::size_t term) {
+  const auto terms = model.terms();
+  const std::string name(terms[term]->description.name);
+  if (std::count(terms.begin(), terms.end(), terms[term]) < 2) return name;
+  for (const brdf::ModelParameter& parameter : model.amplitudes()) {
+    if (parameter.term == term) return fmt::format("{} ({})", name, parameter.name);
+  }
+  return name;
+}
+
 /// The term that an unknown belongs to.
 std::size_t term_of(const FitResult& result, const Unknown& unknown) {
   return unknown.is_shape ? result.model.shape()[unknown.index].term
@@ -55,7 +67,7 @@ void warn_of_absent_terms(const FitResult& result, const Identifiability& identi
     warnings.push_back(
         fmt::format("the amplitude of {} is 0 in every channel: {} means nothing here; the "
                     "material shows no such lobe, try a model without it",
-                    result.model.terms()[term]->description.name, fmt::join(shape, ", ")));
+                    term_name(result.model, term), fmt::join(shape, ", ")));
   }
 }
 
@@ -79,7 +91,7 @@ void warn_of_insignificant_terms(const FitResult& result, const Identifiability&
     warnings.push_back(fmt::format(
         "the amplitude of {} cannot be told from 0 in any channel: do not believe {}; the material "
         "may show no such lobe, try a model without it",
-        result.model.terms()[term]->description.name, fmt::join(shape, ", ")));
+        term_name(result.model, term), fmt::join(shape, ", ")));
   }
 }
 
@@ -113,12 +125,21 @@ void warn_of_undetermined(const FitResult& result, const Identifiability& identi
           : "measure other directions, or fix one with --fix"));
 }
 
+/// True for an angle that may go around its period: its bounds are no limits.
+bool is_whole_turn(const FitResult& result, const Box& box, const Unknown& unknown) {
+  if (!unknown.is_shape) return false;
+  const brdf::Parameter& descriptor = result.model.shape()[unknown.index].descriptor;
+  return descriptor.scale == brdf::Scale::periodic && box.lower(unknown) == descriptor.lower &&
+         box.upper(unknown) == descriptor.upper;
+}
+
 void warn_of_bounds(const FitResult& result, const Box& box, const Identifiability& identifiability,
                     std::vector<std::string>& warnings) {
   for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
     const Unknown& unknown = result.unknowns[u];
-    if (unknown.fixed || identifiability.is_undetermined(u)) continue;
+    if (unknown.fixed || unknown.dependent || identifiability.is_undetermined(u)) continue;
     if (identifiability.is_absent(term_of(result, unknown))) continue;  // said of the whole term
+    if (is_whole_turn(result, box, unknown)) continue;
     const double value = result.values[unknown];
     // A logarithmic solver comes close to a bound without standing on it.
     const double near = unknown.is_shape ? 1e-6 * std::abs(value) : 0;
@@ -159,14 +180,38 @@ void warn_of_no_freedom(const FitResult& result, const Identifiability& identifi
 
 void warn_of_weak_shapes(const FitResult& result, std::vector<std::string>& warnings) {
   for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
-    if (!result.unknowns[u].is_shape || !result.uncertainty.stddev[u]) continue;
-    const double value = std::abs(result.values[result.unknowns[u]]);
+    const Unknown& unknown = result.unknowns[u];
+    if (!unknown.is_shape || !result.uncertainty.stddev[u]) continue;
+    const brdf::Parameter& descriptor = result.model.shape()[unknown.index].descriptor;
     const double stddev = *result.uncertainty.stddev[u];
-    if (stddev <= 0.5 * value) continue;
-    warnings.push_back(
-        fmt::format("{} is hardly determined: its standard deviation is {:.0f} % of its value",
-                    result.unknowns[u].name, 100 * stddev / std::max(value, 1e-300)));
+    if (descriptor.scale == brdf::Scale::logarithmic) {
+      const double value = std::abs(result.values[unknown]);
+      if (stddev <= 0.5 * value) continue;
+      warnings.push_back(
+          fmt::format("{} is hardly determined: its standard deviation is {:.0f} % of its value",
+                      unknown.name, 100 * stddev / std::max(value, 1e-300)));
+    } else if (stddev > 0.1 * (descriptor.upper - descriptor.lower)) {
+      warnings.push_back(fmt::format(
+          "{} is hardly determined: its standard deviation is {:.2g} {}, of a range of {:.3g}{}",
+          unknown.name, stddev, descriptor.unit, descriptor.upper - descriptor.lower,
+          descriptor.scale == brdf::Scale::periodic
+              ? "; where alpha_x and alpha_y are alike the "
+                "tangent means nothing: try an isotropic model"
+              : ""));
+    }
   }
+}
+
+/// Many values beyond what the bulk scatters by: not outliers, but noise that differs.
+void warn_of_many_outliers(const FitResult& result, std::vector<std::string>& warnings) {
+  const double share =
+      double(result.outlier_count) / double(std::max<std::size_t>(result.used_values, 1));
+  if (share <= 0.1) return;
+  warnings.push_back(fmt::format(
+      "{:.0f} % of the values lie beyond 5 standard deviations of the bulk: their noise differs "
+      "rather than that they are outliers; with metric relative, or chi2 and --noise, only real "
+      "outliers stand out",
+      100 * share));
 }
 
 /// rho_d and rho_s are shares of the incident light (Ward 1992): their sum must stay below 1.
@@ -183,7 +228,8 @@ void warn_of_albedo(const FitResult& result, const Identifiability& identifiabil
       sum += result.values[unknown];
       determined = determined && !identifiability.is_undetermined(u);
     }
-    if (sum <= 1 || !determined) continue;
+    // rho_d + (1 - rho_d) may miss 1 by a rounding.
+    if (sum <= 1 + 1e-12 || !determined) continue;
     warnings.push_back(
         fmt::format("{} of channel {} is {:.3g}, over 1: more light would leave than arrives; is "
                     "the table's quantity declared right?",
@@ -218,6 +264,7 @@ std::vector<std::string> diagnose(const FitResult& result, const Box& box,
   warn_of_bounds(result, box, identifiability, warnings);
   warn_of_weak_shapes(result, warnings);
   warn_of_misfit(result, warnings);
+  warn_of_many_outliers(result, warnings);
   return warnings;
 }
 
