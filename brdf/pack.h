@@ -113,7 +113,8 @@ inline Pack::Bits to_integers(const Pack& whole) {
 /// e^x to 2 units in the last place; 0 below -745.2, infinity above 709.8. Cody & Waite's (1980)
 /// reduction to |r| <= ln(2)/2, then Taylor's series, whose remainder is 4e-18.
 inline Pack exp(const Pack& x) {
-  using namespace pack_detail;
+  using pack_detail::power_of_two;
+  using pack_detail::rounded;
   constexpr double log2_e = 0x1.71547652b82fep+0;
   constexpr double ln2_high = 0x1.62e42fee00000p-1;  // 32 bits: its multiples are exact
   constexpr double ln2_low = 0x1.a39ef35793c76p-33;
@@ -141,7 +142,9 @@ inline Pack exp(const Pack& x) {
 /// The natural logarithm of normal positive numbers, to 2 units in the last place: x = m 2^e with m
 /// about 1, and ln m = 2 atanh((m - 1) / (m + 1)) by its series.
 inline Pack log(const Pack& x) {
-  using namespace pack_detail;
+  using pack_detail::bits_of;
+  using pack_detail::from_integers;
+  using pack_detail::with_bits;
   constexpr double ln2_high = 0x1.62e42fee00000p-1;
   constexpr double ln2_low = 0x1.a39ef35793c76p-33;
   const Pack::Bits bits = bits_of(x);
@@ -171,7 +174,11 @@ inline Pack log(const Pack& x) {
 /// The cube root of numbers from 0 on, to 2 units in the last place; 0 below 1e-300. A third of
 /// the exponent for a start (4 % off), then three of Halley's steps, each cubing the error.
 inline Pack cbrt(const Pack& x) {
-  using namespace pack_detail;
+  using pack_detail::bits_of;
+  using pack_detail::from_integers;
+  using pack_detail::rounded;
+  using pack_detail::to_integers;
+  using pack_detail::with_bits;
   // Bits 20 to 63 as a number: 2^32 stands for a factor of 2.
   constexpr double start = 0x1p32 * (2.0 / 3 * 1023 - 0.0330624);
   const Pack high = from_integers(bits_of(x) >> 20);

@@ -20,17 +20,48 @@ std::vector<ParameterValue> parameters_of(const fit::FitResult& result) {
   return parameters;
 }
 
+Outliers outliers_of(const fit::FitResult& result) {
+  Outliers outliers{
+      .threshold = result.outlier_threshold, .count = result.outlier_count, .listed = {}};
+  for (const fit::Outlier& outlier : result.outliers) {
+    outliers.listed.push_back({outlier.sample, result.channels[outlier.channel], outlier.residual});
+  }
+  return outliers;
+}
+
+HeldOut held_out_of(const fit::HeldOut& found) {
+  HeldOut held_out{.errors = {found.errors.begin(), found.errors.end()}, .folds = {}};
+  for (const fit::HeldOut::Fold& fold : found.folds) {
+    held_out.folds.push_back({{fold.lower_deg, fold.upper_deg}, fold.values, fold.error});
+  }
+  return held_out;
+}
+
 FitSummary summary_of(const fit::FitResult& result) {
   FitSummary summary;
   summary.metric = name(result.metric);
-  summary.loss = "none";
+  summary.loss = name(result.loss);
+  if (result.loss != fit::Loss::none) {
+    summary.loss_scale = result.loss_scale;
+    summary.outliers = outliers_of(result);
+  }
   summary.covariance = name(result.uncertainty.kind);
   summary.samples = result.samples;
   summary.used = result.used;
   summary.converged = result.converged;
   summary.iterations = result.iterations;
   for (const auto& [metric, error] : result.errors) summary.errors.emplace_back(metric, error);
+  if (result.held_out) summary.held_out = held_out_of(*result.held_out);
   summary.reduced_chi2 = result.uncertainty.reduced_chi2;
+  summary.aicc = result.aicc;
+  summary.bic = result.bic;
+  if (result.nested) {
+    summary.nested = NestedComparison{.in = result.nested->in,
+                                      .test = "wald",
+                                      .statistic = result.nested->statistic,
+                                      .p_value = result.nested->p_value,
+                                      .text = result.nested->text};
+  }
   for (const fit::Unknown& unknown : result.unknowns) {
     summary.correlation_parameters.push_back(unknown.name);
   }

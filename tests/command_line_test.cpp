@@ -98,6 +98,14 @@ TEST(CommandLine, WrongUsageEndsWithTwoAndOneLine) {
       {"fit", table, "-m", "ward", "--bounds", "alpha=2:1"},
       {"fit", table, "-m", "ward", "--max-theta", "abc"},
       {"fit", table, "-m", "ward", "--metric", "chi2"},  // no sigma columns and no --noise
+      {"fit", table, "-m", "ward", "--loss", "no-such-loss"},
+      {"fit", table, "-m", "ward", "--loss-scale", "0.1"},  // of no loss
+      {"fit", table, "-m", "ward", "--loss", "huber", "--loss-scale", "-0.1"},
+      {"fit", table, "-m", "ward", "--loss", "huber", "--loss-scale", "0"},
+      {"fit", table, "-m", "ward", "--loss", "huber", "--loss-scale", "1e999"},
+      {"fit", table, "-m", "ward", "--loss", "huber", "--loss-scale", "abc"},
+      {"fit", table, "-m", "ward", "--loss", "huber", "--covariance", "residual"},
+      {"fit", table, "-m", "lambert", "--homogeneous"},
       {"models", "no-such-model"},
       {"eval", table},
       {"synth"},

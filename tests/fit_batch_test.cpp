@@ -167,6 +167,9 @@ TEST(FitBatch, WrongUsageIsRefusedBeforeAnyWork) {
   for (const std::vector<std::string>& wrong :
        {std::vector<std::string>{"-o", out, "-m", "no-such-model"},
         std::vector<std::string>{"-o", out, "--metric", "no-such-metric"},
+        std::vector<std::string>{"-o", out, "--loss", "no-such-loss"},
+        std::vector<std::string>{"-o", out, "--loss-scale", "1"},
+        std::vector<std::string>{"-o", out, "--loss", "tukey", "--loss-scale", "-1"},
         std::vector<std::string>{"-o", out, "--fix", "alpha"},
         std::vector<std::string>{"--residuals", out, "--bounds", "alpha=1"},
         std::vector<std::string>{"--summary", "--json"}}) {
@@ -317,10 +320,14 @@ TEST(FitBatch, SummaryCsvSaysWhatTheJsonSays) {
       for (const auto& [name, error] : fit.at("errors").items()) {
         EXPECT_EQ(number(row[name]), error.get<double>()) << name;
       }
+      // Without a loss and weights the metric's error is the one of that name.
+      EXPECT_DOUBLE_EQ(number(row["metric_error"]), fit.at("errors").at("cosine-l2"));
+      EXPECT_DOUBLE_EQ(number(row["held_out"]), fit.at("held_out").at("errors").at("cosine-l2"));
       const Row parameters = parameters_of(material);
-      const std::vector<std::string> others{
-          "table", "model", "rank",      "metric", "loss",      "used",     "converged",
-          "l2",    "log",   "cosine-l2", "error",  "cube-root", "relative", "warnings"};
+      const std::vector<std::string> others{"table",        "model",    "rank",      "metric",
+                                            "loss",         "used",     "converged", "l2",
+                                            "log",          "error",    "cosine-l2", "cube-root",
+                                            "metric_error", "held_out", "warnings",  "relative"};
       for (const auto& [column, field] : row) {
         if (std::find(others.begin(), others.end(), column) != others.end()) continue;
         const auto expected = parameters.find(column);
@@ -344,7 +351,8 @@ TEST(FitBatch, SummaryGoesToStdoutInPlaceOfTheTableWithoutAFolder) {
   EXPECT_EQ(written.exit_status, 0) << written.err;
   EXPECT_EQ(printed.out, content_of(out + "/summary.csv"));
   EXPECT_THAT(printed.out, StartsWith("table,model,rank,metric,loss,used,converged,l2,cosine-l2,"
-                                      "log,cube-root,relative,warnings,error,"));
+                                      "log,cube-root,relative,metric_error,held_out,warnings,"
+                                      "error,"));
   EXPECT_THAT(written.out, EndsWith("\n2 of 2 tables fitted; 0 failed\n"));
 }
 

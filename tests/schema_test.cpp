@@ -6,15 +6,12 @@
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <valijson/adapters/nlohmann_json_adapter.hpp>
-#include <valijson/schema.hpp>
-#include <valijson/schema_parser.hpp>
-#include <valijson/validator.hpp>
 
 #include "instrument/recipe.h"
 #include "material/material_json.h"
 #include "table/file_error.h"
 #include "table/json_file.h"
+#include "tests/json_schema.h"
 
 namespace gonio::tests {
 namespace {
@@ -27,33 +24,6 @@ json read_json(const std::filesystem::path& path) {
   std::ifstream file(path);
   return json::parse(file);
 }
-
-/// A schema of the folder schema/, as a draft 7 validator understands it.
-class Schema {
- public:
-  explicit Schema(const std::string& file) : document_(read_json(source_folder / "schema" / file)) {
-    valijson::SchemaParser parser(valijson::SchemaParser::kDraft7);
-    parser.populateSchema(valijson::adapters::NlohmannJsonAdapter(document_), schema_);
-  }
-
-  /// Empty if the schema accepts the instance, else the first reason.
-  std::string complaint(const json& instance) const {
-    valijson::Validator validator(valijson::Validator::kStrongTypes);
-    valijson::ValidationResults results;
-    if (validator.validate(schema_, valijson::adapters::NlohmannJsonAdapter(instance), &results)) {
-      return "";
-    }
-    valijson::ValidationResults::Error error;
-    results.popError(error);
-    std::string text;
-    for (const std::string& step : error.context) text += step;
-    return text + ": " + error.description;
-  }
-
- private:
-  json document_;
-  valijson::Schema schema_;
-};
 
 json example_material() {
   return json::parse(R"({"format": "gonio-material", "version": 1, "name": "rolled brass",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -42,11 +43,30 @@ std::vector<fit::ParameterSetting> settings_in(const std::vector<std::string>& t
   return settings;
 }
 
+/// Sets the loss and its scale.
+void set_loss(const FitArguments& arguments, fit::Options& options) {
+  options.loss = fit::loss_from_name(arguments.loss);
+  if (arguments.loss_scale.empty()) return;
+  constexpr std::string_view form = "a number above 0, in the unit of the metric";
+  if (options.loss == fit::Loss::none) {
+    throw std::invalid_argument(
+        "--loss-scale is where a robust loss begins to doubt a residual: add --loss huber, cauchy "
+        "or tukey");
+  }
+  const double scale = number_in(arguments.loss_scale, "--loss-scale", form);
+  if (!(std::isfinite(scale) && scale > 0)) {
+    throw std::invalid_argument(
+        fmt::format("--loss-scale needs {}; found {}", form, arguments.loss_scale));
+  }
+  options.loss_scale = scale;
+}
+
 }  // namespace
 
 fit::Options options_in(const FitArguments& arguments) {
   fit::Options options;
   options.metric = fit::metric_from_name(arguments.metric);
+  set_loss(arguments, options);
   options.covariance = fit::covariance_from_name(arguments.covariance);
   if (!(arguments.max_theta > 0 && arguments.max_theta <= 90)) {
     throw std::invalid_argument("--max-theta needs an angle above 0 and up to 90 degrees");
@@ -62,6 +82,7 @@ fit::Options options_in(const FitArguments& arguments) {
     const auto [relative, absolute] = split(arguments.noise, ',', "--noise", form);
     options.noise = {number_in(relative, "--noise", form), number_in(absolute, "--noise", form)};
   }
+  options.homogeneous = arguments.homogeneous;
   options.fixed = settings_in(arguments.fixed, "--fix");
   options.start = settings_in(arguments.start, "--start");
   for (const std::string& text : arguments.bounds) {
@@ -74,13 +95,17 @@ fit::Options options_in(const FitArguments& arguments) {
   return options;
 }
 
+brdf::Frame frame_in(const FitArguments& arguments) {
+  return arguments.free_frame ? brdf::Frame::free : brdf::Frame::of_table;
+}
+
 std::optional<std::vector<brdf::Model>> models_in(const FitArguments& arguments) {
   if (!arguments.models || *arguments.models == "all") return std::nullopt;
   std::vector<brdf::Model> models;
   std::string_view rest = *arguments.models;
   while (true) {
     const std::size_t comma = rest.find(',');
-    brdf::Model model(rest.substr(0, comma));
+    brdf::Model model(rest.substr(0, comma), frame_in(arguments));
     if (std::none_of(models.begin(), models.end(),
                      [&](const brdf::Model& other) { return other.name() == model.name(); })) {
       models.push_back(std::move(model));

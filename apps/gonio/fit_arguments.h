@@ -15,10 +15,14 @@ struct FitArguments {
   std::vector<std::string> tables;
   std::optional<std::string> models;
   std::string metric = "cosine-l2";
+  std::string loss = "none";
+  std::string loss_scale;
   std::string covariance = "auto";
   std::string noise;
   std::vector<std::string> fixed, start, bounds;
   double max_theta = 80;
+  bool free_frame = false;
+  bool homogeneous = false;
   int threads = 0;
   std::string output;
   std::string residuals;
@@ -29,6 +33,9 @@ struct FitArguments {
 /// The options that they stand for. Throws std::invalid_argument that names the option and what it
 /// needs.
 fit::Options options_in(const FitArguments& arguments);
+
+/// Where the tangent of the models points.
+brdf::Frame frame_in(const FitArguments& arguments);
 
 /// The models that the user named, each once; none: all that a table can determine. Throws
 /// std::invalid_argument for an unknown one.

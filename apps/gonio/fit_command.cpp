@@ -36,7 +36,7 @@ void print_report_of(const TableFit& table_fit, const fit::Options& options) {
     for (const ModelFit& fit : table_fit.fits) results.push_back(fit.result);
     print(report_ranking(results));
   }
-  print(report_fit(best));
+  print(report_fit(best, options));
 }
 
 void run_table(const FitRequest& request, const FitFiles& files, bool as_json,
@@ -57,6 +57,7 @@ void run_table(const FitRequest& request, const FitFiles& files, bool as_json,
 void run_fit(const FitArguments& arguments, Invocation& invocation) {
   const FitRequest request{.options = options_in(arguments),
                            .models = models_in(arguments),
+                           .frame = frame_in(arguments),
                            .command_line = invocation.command_line,
                            .with_digest = arguments.json || !arguments.output.empty()};
   const FitPlan plan = plan_in(arguments);
@@ -83,9 +84,22 @@ void add_fit_command(CLI::App& app, Invocation& invocation) {
                    "MODEL[,MODEL..] (see gonio models), or all; without it, all the models "
                    "that this table can determine")
       ->type_name("MODEL");
-  command->add_option("--metric", arguments->metric, "l2, cosine-l2 or chi2")
+  command
+      ->add_option("--metric", arguments->metric,
+                   "what is minimised: l2, cosine-l2, log, cube-root, relative or chi2")
       ->capture_default_str()
       ->type_name("METRIC");
+  command
+      ->add_option("--loss", arguments->loss,
+                   "how much outliers count: none (as squares), huber, cauchy or tukey")
+      ->capture_default_str()
+      ->type_name("LOSS");
+  command
+      ->add_option(
+          "--loss-scale", arguments->loss_scale,
+          "the residual from which on the loss doubts it, in the metric's unit; found from "
+          "the residuals if not given")
+      ->type_name("X");
   command
       ->add_option("--noise", arguments->noise,
                    "for chi2: sigma^2 = (REL f)^2 + ABS^2, instead of the table's sigma")
@@ -103,9 +117,12 @@ void add_fit_command(CLI::App& app, Invocation& invocation) {
       ->type_name("P=LO:HI");
   command
       ->add_option("--start", arguments->start,
-                   "start a shape parameter there instead of searching")
+                   "start a shape parameter there as well as where the search finds")
       ->allow_extra_args(false)
       ->type_name("P=V");
+  command->add_flag("--free-frame", arguments->free_frame,
+                    "find the tangent angle psi of anisotropic lobes, too");
+  command->add_flag("--homogeneous", arguments->homogeneous, "rho_s = 1 - rho_d in every channel");
   command
       ->add_option("--covariance", arguments->covariance, "auto, known-sigma, residual or sandwich")
       ->capture_default_str()

@@ -20,9 +20,11 @@ ModelSummary summary_of(const ModelFit& fit) {
                        .used = result.used,
                        .converged = result.converged,
                        .metric_error = result.metric_error,
+                       .held_out_error = {},
                        .errors = fit.material.fit->errors,
                        .warnings = result.warnings.size(),
                        .parameters = {}};
+  if (result.held_out) summary.held_out_error = result.held_out->metric_error;
   for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
     const fit::Unknown& unknown = result.unknowns[u];
     summary.parameters.push_back(

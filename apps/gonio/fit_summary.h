@@ -27,6 +27,7 @@ struct ModelSummary {
   std::size_t used;
   bool converged;
   double metric_error;
+  std::optional<double> held_out_error;  // like metric_error
   std::vector<std::pair<std::string, double>> errors;
   std::size_t warnings;
   std::vector<ParameterEstimate> parameters;
@@ -50,9 +51,9 @@ std::string summary_text(std::span<const TableSummary> tables, const fit::Option
 
 /// CSV (RFC 4180, but with plain newlines) with a row per fitted model and one per failed table, in
 /// the order given: table, model, rank, metric, loss, used, converged, the error under each
-/// metric, the number of warnings, the error message of a failed table, then value and standard
-/// deviation of each parameter that occurs; empty where a model has none. Doubles read back to the
-/// same bits.
+/// metric, metric_error and held_out, the number of warnings, the error message of a failed table,
+/// then value and standard deviation of each parameter that occurs; empty where a model has none.
+/// Doubles read back to the same bits.
 std::string summary_csv(std::span<const TableSummary> tables);
 
 }  // namespace gonio::app

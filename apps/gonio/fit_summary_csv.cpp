@@ -51,7 +51,7 @@ std::vector<std::string> parameter_names(std::span<const TableSummary> tables) {
 std::string csv_header(const std::vector<std::string>& parameters) {
   std::vector<std::string> fields{"table", "model", "rank", "metric", "loss", "used", "converged"};
   fields.insert(fields.end(), error_names.begin(), error_names.end());
-  fields.insert(fields.end(), {"warnings", "error"});
+  fields.insert(fields.end(), {"metric_error", "held_out", "warnings", "error"});
   for (const std::string& name : parameters) {
     fields.push_back(name);
     fields.push_back(name + "_stddev");
@@ -60,8 +60,8 @@ std::string csv_header(const std::vector<std::string>& parameters) {
 }
 
 std::string csv_row_of_failed(const TableSummary& table, std::size_t parameter_count) {
-  // model, rank, metric, loss, used, converged, the errors, warnings
-  constexpr std::size_t fields_of_a_fit = 6 + error_names.size() + 1;
+  // model, rank, metric, loss, used, converged; the errors; metric_error, held_out, warnings
+  constexpr std::size_t fields_of_a_fit = 6 + error_names.size() + 3;
   std::vector<std::string> fields{table.table};
   fields.resize(1 + fields_of_a_fit);
   fields.push_back(table.error);
@@ -75,6 +75,10 @@ std::string error_text(const ModelSummary& fit, std::string_view name) {
   return found == fit.errors.end() ? "" : fmt::format("{}", found->second);
 }
 
+std::string text_of(const std::optional<double>& number) {
+  return number ? fmt::format("{}", *number) : "";
+}
+
 std::string csv_row_of(const TableSummary& table, std::size_t rank,
                        const std::vector<std::string>& parameters) {
   const ModelSummary& fit = table.fits[rank];
@@ -86,6 +90,8 @@ std::string csv_row_of(const TableSummary& table, std::size_t rank,
                                   fmt::format("{}", fit.used),
                                   fit.converged ? "true" : "false"};
   for (const std::string_view name : error_names) fields.push_back(error_text(fit, name));
+  fields.push_back(fmt::format("{}", fit.metric_error));
+  fields.push_back(text_of(fit.held_out_error));
   fields.push_back(fmt::format("{}", fit.warnings));
   fields.emplace_back();  // error
   std::map<std::string_view, const ParameterEstimate*> estimates;
@@ -94,8 +100,7 @@ std::string csv_row_of(const TableSummary& table, std::size_t rank,
     const auto found = estimates.find(name);
     const ParameterEstimate* estimate = found == estimates.end() ? nullptr : found->second;
     fields.push_back(estimate != nullptr ? fmt::format("{}", estimate->value) : "");
-    fields.push_back(estimate != nullptr && estimate->stddev ? fmt::format("{}", *estimate->stddev)
-                                                             : "");
+    fields.push_back(estimate != nullptr ? text_of(estimate->stddev) : "");
   }
   return line_of(fields);
 }

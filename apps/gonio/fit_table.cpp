@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <stdexcept>
 #include <utility>
 
 #include "apps/gonio/fit_residuals.h"
+#include "fit/held_out.h"
+#include "fit/nested.h"
 #include "fit/ranking.h"
 #include "material/from_fit.h"
 #include "material/material_json.h"
@@ -45,8 +48,9 @@ std::vector<brdf::Model> models_for(const table::SampleTable& table, const FitRe
   if (request.models) return *request.models;
   std::vector<brdf::Model> models;
   std::vector<std::string> excluded;
-  for (const std::string& name : fit::determinable_models(table, request.options, excluded)) {
-    models.emplace_back(name);
+  for (const std::string& name :
+       fit::determinable_models(table, request.options, excluded, request.frame)) {
+    models.emplace_back(name, request.frame);
   }
   for (const std::string& note : excluded) messages.note(note);
   if (models.empty()) {
@@ -66,6 +70,16 @@ Settings applicable(const Settings& settings, const brdf::Model& model,
     if (fit::has_parameter(model, table.channels, setting.parameter)) kept.push_back(setting);
   }
   return kept;
+}
+
+/// The options as far as they are about this model.
+fit::Options options_for(const brdf::Model& model, const table::SampleTable& table,
+                         const fit::Options& all) {
+  fit::Options options = all;
+  options.fixed = applicable(all.fixed, model, table);
+  options.start = applicable(all.start, model, table);
+  options.bounds = applicable(all.bounds, model, table);
+  return options;
 }
 
 /// Refuses a setting that no model has the parameter for, and notes those without effect.
@@ -93,30 +107,51 @@ void check_settings(const fit::Options& options, const std::vector<brdf::Model>&
   }
 }
 
+void note_idle_frame(const std::vector<brdf::Model>& models, const FitRequest& request,
+                     FitMessages& messages) {
+  if (request.frame == brdf::Frame::of_table ||
+      std::any_of(models.begin(), models.end(), std::mem_fn(&brdf::Model::has_free_frame))) {
+    return;
+  }
+  messages.note("--free-frame: no model of this fit has a tangent, so that it changes nothing");
+}
+
+/// Adds what only a comparison tells: errors held out, and tests of models within others.
+void compare(std::vector<fit::FitResult>& results, const table::SampleTable& table,
+             const fit::Options& options, FitMessages& messages) {
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    fit::FitResult& result = results[i];
+    messages.progress(fmt::format("predicting angles held out from {} ({} of {})",
+                                  result.model.name(), i + 1, results.size()));
+    result.held_out =
+        fit::held_out_errors(result, table, options_for(result.model, table, options));
+  }
+  fit::compare_nested(results);
+}
+
 std::vector<ModelFit> fit_models(const std::vector<brdf::Model>& models,
                                  const table::SampleTable& table, const FitRequest& request,
                                  FitMessages& messages) {
-  fit::Options options = request.options;
-  std::vector<ModelFit> fits;
+  std::vector<fit::FitResult> results;
+  std::vector<double> seconds;
   for (const brdf::Model& model : models) {
     const std::string what =
-        fmt::format("fitting {} ({} of {})", model.name(), fits.size() + 1, models.size());
+        fmt::format("fitting {} ({} of {})", model.name(), results.size() + 1, models.size());
     messages.progress(what);
+    fit::Options options = options_for(model, table, request.options);
     options.progress = [&](int pass, double share) {
       messages.progress(fmt::format("{}, pass {}", what, pass), share);
     };
-    options.fixed = applicable(request.options.fixed, model, table);
-    options.start = applicable(request.options.start, model, table);
-    options.bounds = applicable(request.options.bounds, model, table);
     const Stopwatch stopwatch;
-    fit::FitResult result = fit::fit(model, table, options);
-    const double seconds = stopwatch.seconds();
-    material::Material material = material::from_fit(result, table, request.command_line);
-    fits.push_back({std::move(result), std::move(material), seconds});
+    results.push_back(fit::fit(model, table, options));
+    seconds.push_back(stopwatch.seconds());
   }
-  std::stable_sort(fits.begin(), fits.end(), [](const ModelFit& a, const ModelFit& b) {
-    return fit::ranks_before(a.result, b.result);
-  });
+  if (results.size() > 1) compare(results, table, request.options, messages);
+  std::vector<ModelFit> fits;
+  for (const std::size_t i : fit::ranking(results)) {
+    material::Material material = material::from_fit(results[i], table, request.command_line);
+    fits.push_back({std::move(results[i]), std::move(material), seconds[i]});
+  }
   return fits;
 }
 
@@ -129,14 +164,17 @@ bool TableFit::has_converged() const {
 
 TableFit fit_table(const FitRequest& request, const FitFiles& files, FitMessages& messages) {
   auto [table, read_seconds] = read_table(request, files, messages);
-  if (!files.residuals.empty()) check_residual_columns(table);
+  if (!files.residuals.empty()) check_residual_columns(table, request.options);
   const std::vector<brdf::Model> models = models_for(table, request, messages);
   check_settings(request.options, models, table, messages);
+  note_idle_frame(models, request, messages);
   std::vector<ModelFit> fits = fit_models(models, table, request, messages);
 
-  const material::Material& best = fits.front().material;
-  if (!files.material.empty()) material::write_material(best, files.material);
-  if (!files.residuals.empty()) write_residuals(files.residuals, table, best);
+  const ModelFit& best = fits.front();
+  if (!files.material.empty()) material::write_material(best.material, files.material);
+  if (!files.residuals.empty()) {
+    write_residuals(files.residuals, table, best.material, best.result, request.options);
+  }
   return {std::move(table), read_seconds, std::move(fits)};
 }
 

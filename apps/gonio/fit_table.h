@@ -20,6 +20,7 @@ struct FitRequest {
   fit::Options options;
   /// None: all the models that a table can determine.
   std::optional<std::vector<brdf::Model>> models;
+  brdf::Frame frame = brdf::Frame::of_table;
   std::string command_line;
   /// The table's sha256 belongs to the result.
   bool with_digest = false;
@@ -28,7 +29,7 @@ struct FitRequest {
 struct ModelFit {
   fit::FitResult result;
   material::Material material;
-  double seconds;
+  double seconds;  // of the fit, without those to parts of the table
 };
 
 struct TableFit {
