@@ -171,8 +171,8 @@ inline Pack log(const Pack& x) {
   return e * Pack(ln2_high) + (f - (s * (f - z * series) - e * Pack(ln2_low)));
 }
 
-/// The cube root of numbers from 0 on, to 2 units in the last place; 0 below 1e-300. A third of
-/// the exponent for a start (4 % off), then three of Halley's steps, each cubing the error.
+/// The cube root of numbers from 0 to 1e307, to 2 units in the last place; 0 below 1e-300. A third
+/// of the exponent for a start (4 % off), then three of Halley's steps, each cubing the error.
 inline Pack cbrt(const Pack& x) {
   using pack_detail::bits_of;
   using pack_detail::from_integers;

@@ -207,6 +207,13 @@ void warn_of_many_outliers(const FitResult& result, std::vector<std::string>& wa
   const double share =
       double(result.outlier_count) / double(std::max<std::size_t>(result.used_values, 1));
   if (share <= 0.1) return;
+  if (share > 0.5) {
+    warnings.push_back(fmt::format(
+        "the loss' scale {:.3g} is smaller than most residuals: nearly everything counts as an "
+        "outlier, and the fit may have ended anywhere; give a larger --loss-scale or none",
+        result.loss_scale));
+    return;
+  }
   warnings.push_back(fmt::format(
       "{:.0f} % of the values lie beyond 5 standard deviations of the bulk: their noise differs "
       "rather than that they are outliers; with metric relative, or chi2 and --noise, only real "

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fit/canonical.h"
 #include "fit/diagnose.h"
 #include "fit/robust_scale.h"
 #include "fit/search.h"
@@ -166,8 +167,7 @@ Solution solve_with_found_scale(const WeightedSamples& samples, const Problem& p
   const double least = least_deviation(samples, problem.passes);
   double deviation = 0;
   const auto scale_at = [&](const ParameterValues& values) {
-    deviation = std::max(
-        robust_deviation(samples, problem.model, values, deviation, problem.passes), least);
+    deviation = robust_deviation(samples, problem.model, values, deviation, least, problem.passes);
     return efficient_scale(loss.loss) * deviation;
   };
   ScaleSearch search(scale_at(starts.front().values));
@@ -238,6 +238,13 @@ FitResult fit(const brdf::Model& model, const table::SampleTable& table, const O
   ParameterValues reference;
   if (options.metric == Metric::chi2 && options.noise && options.noise->relative > 0) {
     settle_noise(table, problem, loss, samples, reference, solution);
+  }
+
+  // The whole table may have carried the subset's solution over to the other description.
+  const ParameterValues described = canonical(model, box, solution.values);
+  if (described.shape != solution.values.shape) {
+    solution.values = described;
+    solution = solved_again(*samples, problem, loss, solution);
   }
 
   const Identifiability identifiability(solution.system, model, box, solution.values, unknowns);

@@ -15,8 +15,9 @@ namespace gonio::fit {
 bool is_projectable(Metric metric, Loss loss);
 
 /// The problem's first-order system at the given values, in one pass over the samples. A robust
-/// loss enters exactly: rows are weighed by sqrt(rho'), and what the loss costs beyond them, the
-/// sum of rho - rho' s, is a constant row. Cost and gradient are those of the full problem.
+/// loss enters exactly: cost and gradient are those of the full problem. Rows are weighed by
+/// sqrt(rho'), and then turned and shrunk so that J'J is the loss' own curvature where that is
+/// positive, which takes few steps; what the loss costs beyond them is a constant row.
 LinearSystem joint_system_of(const WeightedSamples& samples, const BatchModel& model,
                              const ParameterValues& values, const ScaledLoss& loss,
                              const PassOptions& passes);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace gonio::fit {
@@ -22,6 +24,16 @@ inline double cost_of(const LinearSystem& system) {
   double sum = 0;
   for (const ChannelSystem& channel : system) sum += channel.residuals.squaredNorm();
   return sum / 2;
+}
+
+/// The norm of the residuals that a model of amplitude 0 would have, to first order.
+inline double norm_of_data(const LinearSystem& system, const Eigen::MatrixXd& amplitudes) {
+  double square = 0;
+  for (std::size_t c = 0; c < system.size(); ++c) {
+    square += (system[c].residuals - system[c].amplitude_jacobian * amplitudes.col(Eigen::Index(c)))
+                  .squaredNorm();
+  }
+  return std::sqrt(square);
 }
 
 }  // namespace gonio::fit

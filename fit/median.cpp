@@ -48,7 +48,8 @@ void MedianSearch::Counts::add(std::span<const double> magnitudes,
   }
 }
 
-MedianSearch::MedianSearch(double lower, double upper, double tolerance) : tolerance_(tolerance) {
+MedianSearch::MedianSearch(double lower, double upper, double tolerance, double least)
+    : tolerance_(tolerance), least_(least) {
   set_bracket(lower, upper);
 }
 
@@ -98,7 +99,7 @@ void MedianSearch::end_round() {
     set_bracket(lower_ + double(bin - 1) * width, lower_ + double(bin) * width);
     done_ = upper_ - lower_ <= tolerance_ * upper_;
   }
-  done_ = done_ || rounds_ >= most_rounds;
+  done_ = done_ || (upper_ > lower_ && upper_ < least_) || rounds_ >= most_rounds;
 }
 
 }  // namespace gonio::fit

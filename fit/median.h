@@ -30,8 +30,9 @@ class MedianSearch {
   };
 
   /// The median should lie from `lower` to below `upper`, else, and if upper <= lower, it takes a
-  /// round more. It is found to `tolerance` of itself: a round divides the bracket by 2048.
-  MedianSearch(double lower, double upper, double tolerance);
+  /// round more. It is found to `tolerance` of itself (a round divides the bracket by 2048), or as
+  /// less than `least`.
+  MedianSearch(double lower, double upper, double tolerance, double least = 0);
 
   bool done() const { return done_; }
   /// Empty counts for this round.
@@ -46,6 +47,7 @@ class MedianSearch {
 
   double lower_ = 0, upper_ = 0;
   double tolerance_;
+  double least_;
   bool done_ = false;
   int rounds_ = 0;
   Counts total_;

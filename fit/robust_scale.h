@@ -8,14 +8,15 @@
 
 namespace gonio::fit {
 
-/// 1.4826 times the (weighted) median magnitude of the metric's residuals: the standard deviation
-/// if they are normal. Two passes over the samples if it lies within a fifth of `near`, else some
-/// more; 0 says that nothing is known.
-double robust_deviation(const WeightedSamples& samples, const BatchModel& model,
-                        const ParameterValues& values, double near, const PassOptions& passes);
-
 /// What a deviation is not to fall below, so that a table without noise has a scale too: 1e-10 of
 /// the data's mean magnitude under the metric. One pass.
 double least_deviation(const WeightedSamples& samples, const PassOptions& passes);
+
+/// 1.4826 times the (weighted) median magnitude of the metric's residuals: the standard deviation
+/// if they are normal; at least `least`. Two passes over the samples if it lies within a fifth of
+/// `near`, else some more; a `near` of 0 says that nothing is known.
+double robust_deviation(const WeightedSamples& samples, const BatchModel& model,
+                        const ParameterValues& values, double near, double least,
+                        const PassOptions& passes);
 
 }  // namespace gonio::fit

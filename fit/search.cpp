@@ -66,13 +66,18 @@ class Level {
     if (options_.loss == Loss::none) return {};
     if (options_.loss_scale) return {options_.loss, *options_.loss_scale};
     const double deviation =
-        std::max(robust_deviation(samples_, model_, values, 0, {}), least_deviation(samples_, {}));
+        robust_deviation(samples_, model_, values, 0, least_deviation(samples_, {}), {});
     return {options_.loss, efficient_scale(options_.loss) * deviation};
   }
 
   /// Solves from each start, and keeps the different ones that may still win, the best first.
   std::vector<Start> solve(const std::vector<Start>& starts, double hopeless_ratio) const {
-    const ScaledLoss loss = loss_at(starts.front().values);
+    ScaledLoss loss = loss_at(starts.front().values);
+    // Tukey's cost has many small minima; cauchy's is one wide basin, and its minimum a start.
+    if (loss.loss == Loss::tukey) {
+      loss = {Loss::cauchy,
+              loss.scale * efficient_scale(Loss::cauchy) / efficient_scale(Loss::tukey)};
+    }
     std::vector<Solution> solutions(starts.size());
     table::parallel_for(starts.size(), options_.threads, [&](std::size_t s) {
       solutions[s] =

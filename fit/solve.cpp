@@ -147,18 +147,6 @@ class LastStepCallback : public ceres::IterationCallback {
   std::optional<Step> step_;
 };
 
-/// The norm of the residuals that a model of amplitude 0 would have, to first order.
-double norm_of_data(const LastEvaluation& evaluation) {
-  double square = 0;
-  const LinearSystem& system = evaluation.full_system();
-  for (std::size_t c = 0; c < system.size(); ++c) {
-    square += (system[c].residuals -
-               system[c].amplitude_jacobian * evaluation.values().amplitudes.col(Eigen::Index(c)))
-                  .squaredNorm();
-  }
-  return std::sqrt(square);
-}
-
 ceres::Solver::Options solver_options(const VariableState& state, double precision) {
   ceres::Solver::Options options;
   options.max_num_iterations = 200;
@@ -222,7 +210,7 @@ Moved move_variables(VariableState& state, const Box& box, double precision,
   evaluation.move_to(values);
   values = evaluation.values();
   if (state.blocks.empty()) return {};
-  const double norm = norm_of_data(evaluation);
+  const double norm = norm_of_data(evaluation.full_system(), evaluation.values().amplitudes);
   Mover mover(evaluation, state, values, box);
   ceres::Problem::Options problem_options;
   problem_options.evaluation_callback = &mover;

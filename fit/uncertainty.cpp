@@ -34,6 +34,14 @@ Eigen::MatrixXd significant_amplitudes(const LinearSystem& system,
   return significant;
 }
 
+/// A large change of a shape parameter.
+double natural_size(const brdf::Model& model, const Unknown& unknown,
+                    const ParameterValues& values) {
+  const brdf::Parameter& descriptor = model.shape()[unknown.index].descriptor;
+  return descriptor.scale == brdf::Scale::logarithmic ? std::abs(values[unknown])
+                                                      : (descriptor.upper - descriptor.lower) / 2;
+}
+
 /// The Jacobian of the rows by every unknown, [channel * rows + row, unknown]; the shape of terms
 /// that are absent has no influence.
 Eigen::MatrixXd full_jacobian(const LinearSystem& system, const brdf::Model& model,
@@ -123,8 +131,15 @@ Identifiability::Identifiability(const LinearSystem& system, const brdf::Model& 
   const Eigen::MatrixXd freedom = freedom_of(unknowns, box, free_);
   Eigen::MatrixXd jacobian = full_jacobian(system, model, absent_terms_, unknowns) * freedom;
   const Eigen::Index count = jacobian.cols();
+  const double negligible = negligible_share * norm_of_data(system, values.amplitudes);
   Eigen::VectorXd norms(count);
   for (Eigen::Index k = 0; k < count; ++k) {
+    // The angle of a lobe without direction moves nothing but roundings.
+    const Unknown& unknown = unknowns[free_[std::size_t(k)]];
+    if (unknown.is_shape &&
+        jacobian.col(k).stableNorm() * natural_size(model, unknown, values) <= negligible) {
+      jacobian.col(k).setZero();
+    }
     const double norm = jacobian.col(k).stableNorm();
     norms[k] = norm > 0 ? norm : 1;
     jacobian.col(k) /= norms[k];
