@@ -125,9 +125,22 @@ GONIO_FOR_EACH_CPU void add_inner_products(const double* a, const double* b, std
   }
 }
 
+/// sums(k, 0) and sums(k, 1) += the sums of the squares and of the fourth powers of column k.
+GONIO_FOR_EACH_CPU void add_powers(const double* columns, std::size_t column_count,
+                                   std::size_t count, double* squares, double* sums) {
+  for (std::size_t k = 0; k < column_count; ++k) {
+    const double* column = columns + k * std::size_t(column_stride);
+    std::fill_n(squares, count, 0.0);
+    add_product(squares, 1, column, column, count);
+    sums[k] += inner_product(column, column, count);
+    sums[k + column_count] += inner_product(squares, squares, count);
+  }
+}
+
 struct State {
   ErrorSums errors;
   Eigen::MatrixXd score_products, curvature;
+  Eigen::MatrixXd powers;  // [amplitude, second | fourth]
   std::size_t outlier_count = 0;
   std::vector<Outlier> outliers;
   double log_variance = 0;
@@ -153,6 +166,7 @@ class Assessor {
     const auto unknown_count = Eigen::Index(unknowns_.size());
     State state;
     state.columns.resize(column_stride, Eigen::Index(model_.column_count(true)));
+    state.powers.setZero(Eigen::Index(model_.amplitude_count()), 2);
     state.model_values.resize(column_stride, values_.amplitudes.cols());
     if (options_.scores) {
       state.score_products.setZero(unknown_count, unknown_count);
@@ -171,6 +185,13 @@ class Assessor {
     model_.evaluate(chunk.directions, values_.shape, options_.scores, state.columns);
     state.model_values.topRows(rows).noalias() =
         state.columns.topLeftCorner(rows, values_.amplitudes.rows()) * values_.amplitudes;
+    // The padding holds directions, and so values.
+    state.columns
+        .block(Eigen::Index(chunk.directions.count), 0, rows - Eigen::Index(chunk.directions.count),
+               values_.amplitudes.rows())
+        .setZero();
+    add_powers(state.columns.data(), model_.amplitude_count(), std::size_t(rows),
+               state.rows.residuals.data(), state.powers.data());
     if (options_.scores) state.scores.topRows(rows).setZero();
     for (Eigen::Index c = 0; c < chunk.values.cols(); ++c) {
       const ChannelColumns in{chunk.values.col(c).data(),
@@ -278,7 +299,7 @@ class Assessor {
 /// What remains of a task.
 struct Part {
   ErrorSums errors;
-  Eigen::MatrixXd score_products, curvature;
+  Eigen::MatrixXd score_products, curvature, powers;
   std::size_t outlier_count;
   std::vector<Outlier> outliers;
   double log_variance;
@@ -296,19 +317,21 @@ Assessment assess(const WeightedSamples& samples, const BatchModel& model,
       [&](const SampleChunk& chunk, State& state) { assessor.fold(chunk, state); },
       [&](State& state) {
         if (state.outliers.size() > options.most_listed) assessor.keep_largest(state.outliers);
-        return Part{state.errors,        state.score_products,      state.curvature,
+        return Part{state.errors,        state.score_products,      state.curvature,   state.powers,
                     state.outlier_count, std::move(state.outliers), state.log_variance};
       });
   Assessment result;
   ErrorSums errors;
   result.score_products = parts.front().score_products;
   result.curvature = parts.front().curvature;
+  Eigen::MatrixXd powers = parts.front().powers;
   for (std::size_t p = 0; p < parts.size(); ++p) {
     const Part& part = parts[p];
     errors.add(part.errors);
     if (p > 0) {
       result.score_products += part.score_products;
       result.curvature += part.curvature;
+      powers += part.powers;
     }
     result.outlier_count += part.outlier_count;
     result.outliers.insert(result.outliers.end(), part.outliers.begin(), part.outliers.end());
@@ -326,6 +349,8 @@ Assessment assess(const WeightedSamples& samples, const BatchModel& model,
     result.errors.emplace_back(error_names[m], root(errors.squares[m], errors.weight));
   }
   result.metric_error = root(errors.metric_square, errors.metric_weight);
+  result.seen_by = (powers.col(1).array() > 0)
+                       .select(powers.col(0).array().square() / powers.col(1).array(), 0.0);
   result.weight = errors.weight;
   result.metric_weight = errors.metric_weight;
   result.values = samples.survey().used_values;

@@ -95,13 +95,37 @@ void warn_of_insignificant_terms(const FitResult& result, const Identifiability&
   }
 }
 
+/// Lobes that no more samples see than could be fitted by anything.
+constexpr double fewest_samples = 3;
+
+/// True for a lobe that is narrower than the samples are apart.
+bool is_between_samples(const FitResult& result, std::size_t term) {
+  for (std::size_t k = 0; k < result.model.amplitudes().size(); ++k) {
+    if (result.model.amplitudes()[k].term != term) continue;
+    if (result.seen_by[Eigen::Index(k)] >= fewest_samples) return false;
+  }
+  return !shape_names(result.model, term).empty();
+}
+
+void warn_of_lobes_between_samples(const FitResult& result, const Identifiability& identifiability,
+                                   std::vector<std::string>& warnings) {
+  for (std::size_t term = 0; term < result.model.terms().size(); ++term) {
+    if (identifiability.is_absent(term) || !is_between_samples(result, term)) continue;
+    warnings.push_back(fmt::format(
+        "hardly more than one sample sees the lobe of {}: it stands for that reading and not for "
+        "the material; try a model without it, a robust --loss, or --bounds on {}",
+        term_name(result.model, term), fmt::join(shape_names(result.model, term), ", ")));
+  }
+}
+
 void warn_of_undetermined(const FitResult& result, const Identifiability& identifiability,
                           std::vector<std::string>& warnings) {
   std::vector<std::string> combinations;
   bool roughness = false;
   for (const std::vector<std::size_t>& group : identifiability.undetermined()) {
     if (std::all_of(group.begin(), group.end(), [&](std::size_t u) {
-          return is_shape_of_absent_term(result, identifiability, result.unknowns[u]);
+          return is_shape_of_absent_term(result, identifiability, result.unknowns[u]) ||
+                 is_between_samples(result, term_of(result, result.unknowns[u]));
         })) {
       continue;
     }
@@ -125,21 +149,13 @@ void warn_of_undetermined(const FitResult& result, const Identifiability& identi
           : "measure other directions, or fix one with --fix"));
 }
 
-/// True for an angle that may go around its period: its bounds are no limits.
-bool is_whole_turn(const FitResult& result, const Box& box, const Unknown& unknown) {
-  if (!unknown.is_shape) return false;
-  const brdf::Parameter& descriptor = result.model.shape()[unknown.index].descriptor;
-  return descriptor.scale == brdf::Scale::periodic && box.lower(unknown) == descriptor.lower &&
-         box.upper(unknown) == descriptor.upper;
-}
-
 void warn_of_bounds(const FitResult& result, const Box& box, const Identifiability& identifiability,
                     std::vector<std::string>& warnings) {
   for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
     const Unknown& unknown = result.unknowns[u];
     if (unknown.fixed || unknown.dependent || identifiability.is_undetermined(u)) continue;
     if (identifiability.is_absent(term_of(result, unknown))) continue;  // said of the whole term
-    if (is_whole_turn(result, box, unknown)) continue;
+    if (goes_round(result.model, box, unknown)) continue;
     const double value = result.values[unknown];
     // A logarithmic solver comes close to a bound without standing on it.
     const double near = unknown.is_shape ? 1e-6 * std::abs(value) : 0;
@@ -266,6 +282,7 @@ std::vector<std::string> diagnose(const FitResult& result, const Box& box,
   warn_of_no_freedom(result, identifiability, warnings);
   warn_of_absent_terms(result, identifiability, warnings);
   warn_of_insignificant_terms(result, identifiability, warnings);
+  warn_of_lobes_between_samples(result, identifiability, warnings);
   warn_of_undetermined(result, identifiability, warnings);
   warn_of_albedo(result, identifiability, warnings);
   warn_of_bounds(result, box, identifiability, warnings);

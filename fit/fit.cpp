@@ -96,12 +96,10 @@ void check_options(const Options& options) {
   }
 }
 
-bool nearly_equal(const ParameterValues& a, const ParameterValues& b) {
+bool nearly_equal(const brdf::Model& model, const ParameterValues& a, const ParameterValues& b) {
   constexpr double tolerance = 1e-9;
-  for (std::size_t j = 0; j < a.shape.size(); ++j) {
-    if (std::abs(a.shape[j] - b.shape[j]) > tolerance * std::abs(b.shape[j])) return false;
-  }
-  return (a.amplitudes - b.amplitudes).norm() <= tolerance * b.amplitudes.norm();
+  return largest_change(model, a.shape, b.shape) <= tolerance &&
+         (a.amplitudes - b.amplitudes).norm() <= tolerance * b.amplitudes.norm();
 }
 
 /// What a solution needs besides the samples.
@@ -162,32 +160,58 @@ class ScaleSearch {
   std::optional<std::pair<double, double>> previous_;  // a scale and its change
 };
 
-Solution solve_with_found_scale(const WeightedSamples& samples, const Problem& problem,
-                                std::span<const Start> starts, ScaledLoss& loss) {
-  const double least = least_deviation(samples, problem.passes);
-  double deviation = 0;
-  const auto scale_at = [&](const ParameterValues& values) {
-    deviation = robust_deviation(samples, problem.model, values, deviation, least, problem.passes);
-    return efficient_scale(loss.loss) * deviation;
-  };
-  ScaleSearch search(scale_at(starts.front().values));
-  loss.scale = search.scale();
-  Solution solution = best_of(samples, problem, loss, starts);
-  bool settled = search.is_settled(scale_at(solution.values));
-  for (int round = 0; round < most_rounds && !settled; ++round) {
-    loss.scale = search.scale();
-    solution = solved_again(samples, problem, loss, solution);
-    settled = search.is_settled(scale_at(solution.values));
+/// The loss with a scale that is found out, and what the search for it goes on from.
+class FoundLoss {
+ public:
+  FoundLoss(const WeightedSamples& samples, const Problem& problem)
+      : problem_(problem), least_(least_deviation(samples, problem.model, problem.passes)) {}
+
+  /// The scale that the residuals at `values` have.
+  double scale_at(const WeightedSamples& samples, const ParameterValues& values) {
+    deviation_ =
+        robust_deviation(samples, problem_.model, values, deviation_, least_, problem_.passes);
+    return efficient_scale(problem_.options.loss) * deviation_;
   }
-  solution.converged = solution.converged && settled;
+
+  /// Solves and renews the scale until both are settled, from `solution` and its scale.
+  void settle(const WeightedSamples& samples, ScaledLoss& loss, Solution& solution) {
+    ScaleSearch search(loss.scale);
+    bool settled = search.is_settled(scale_at(samples, solution.values));
+    for (int round = 0; round < most_rounds && !settled; ++round) {
+      loss.scale = search.scale();
+      solution = solved_again(samples, problem_, loss, solution);
+      settled = search.is_settled(scale_at(samples, solution.values));
+    }
+    solution.converged = solution.converged && settled;
+  }
+
+ private:
+  const Problem& problem_;
+  double least_;
+  double deviation_ = 0;
+};
+
+Solution solve_with_found_scale(const WeightedSamples& samples, const Problem& problem,
+                                std::span<const Start> starts, FoundLoss& found, ScaledLoss& loss) {
+  loss.scale = found.scale_at(samples, starts.front().values);
+  Solution solution = best_of(samples, problem, loss, starts);
+  found.settle(samples, loss, solution);
+  if (starts.size() == 1) return solution;
+  // Which start leads to the best minimum may have changed with the scale.
+  Solution other = best_of(samples, problem, loss, starts);
+  if (other.cost < (1 - 1e-6) * solution.cost) {
+    other.iterations += solution.iterations;
+    solution = std::move(other);
+    found.settle(samples, loss, solution);
+  }
   return solution;
 }
 
-/// sigma depends on the model, and the model on sigma: a few rounds settle both. `samples` are left
-/// with the sigma of `reference`.
-void settle_noise(const table::SampleTable& table, const Problem& problem, const ScaledLoss& loss,
-                  std::optional<WeightedSamples>& samples, ParameterValues& reference,
-                  Solution& solution) {
+/// sigma depends on the model, and the model on sigma, and so does a scale that is found out: a few
+/// rounds settle them. `samples` are left with the sigma of `reference`.
+void settle_noise(const table::SampleTable& table, const Problem& problem, FoundLoss* found,
+                  ScaledLoss& loss, std::optional<WeightedSamples>& samples,
+                  ParameterValues& reference, Solution& solution) {
   const Survey survey = samples->survey();
   bool settled = false;
   for (int round = 0; round < most_rounds && !settled; ++round) {
@@ -195,7 +219,10 @@ void settle_noise(const table::SampleTable& table, const Problem& problem, const
     samples.emplace(table, problem.model, problem.options, survey, std::span<const double>(),
                     &reference);
     solution = solved_again(*samples, problem, loss, solution);
-    settled = nearly_equal(reference, solution.values);
+    const double scale = loss.scale;
+    if (found != nullptr) found->settle(*samples, loss, solution);
+    settled =
+        scale == loss.scale && nearly_equal(problem.model.model(), reference, solution.values);
   }
   solution.converged = solution.converged && settled;
 }
@@ -232,12 +259,13 @@ FitResult fit(const brdf::Model& model, const table::SampleTable& table, const O
   const std::vector<Start> starts = search_starts(subset, batch, box, options, floors);
 
   ScaledLoss loss{options.loss, options.loss_scale.value_or(1)};
-  Solution solution = options.loss != Loss::none && !options.loss_scale
-                          ? solve_with_found_scale(*samples, problem, starts, loss)
-                          : best_of(*samples, problem, loss, starts);
+  std::optional<FoundLoss> found;
+  if (options.loss != Loss::none && !options.loss_scale) found.emplace(*samples, problem);
+  Solution solution = found ? solve_with_found_scale(*samples, problem, starts, *found, loss)
+                            : best_of(*samples, problem, loss, starts);
   ParameterValues reference;
   if (options.metric == Metric::chi2 && options.noise && options.noise->relative > 0) {
-    settle_noise(table, problem, loss, samples, reference, solution);
+    settle_noise(table, problem, found ? &*found : nullptr, loss, samples, reference, solution);
   }
 
   // The whole table may have carried the subset's solution over to the other description.
@@ -257,7 +285,8 @@ FitResult fit(const brdf::Model& model, const table::SampleTable& table, const O
   }
   Assessment assessment = assess(*samples, batch, solution.values, unknowns, floors,
                                  assessment_options, passes.options());
-  complete_uncertainty(solution, identifiability, *samples, box, unknowns, assessment, uncertainty);
+  complete_uncertainty(solution, identifiability, *samples, model, box, unknowns, assessment,
+                       uncertainty);
 
   FitResult result{.model = model,
                    .channels = table.channels,
@@ -273,6 +302,7 @@ FitResult fit(const brdf::Model& model, const table::SampleTable& table, const O
                    .outlier_threshold = assessment_options.outlier_threshold,
                    .outlier_count = assessment.outlier_count,
                    .outliers = std::move(assessment.outliers),
+                   .seen_by = std::move(assessment.seen_by),
                    .aicc = {},
                    .bic = {},
                    .held_out = {},

@@ -37,7 +37,7 @@ struct HeldOut {
 /// A model beside a richer one that contains it (nested.h).
 struct NestedComparison {
   std::string in;    // the richer model
-  double statistic;  // of Wald's test: chi-square distributed if the smaller model is true
+  double statistic;  // of Wald's test, which the covariance scales to chi-square
   double p_value;
   std::string text;  // the verdict, in words
 };
@@ -65,6 +65,8 @@ struct FitResult {
   double outlier_threshold;
   std::size_t outlier_count;
   std::vector<Outlier> outliers;
+  /// Per amplitude, how many samples its basis function lives in (assessment.h).
+  Eigen::VectorXd seen_by;
   /// Akaike's criterion with the correction for few values (Hurvich & Tsai 1989) and Schwarz's, of
   /// normal residuals with the known sigma; only under chi2, without a loss and weights.
   std::optional<double> aicc;

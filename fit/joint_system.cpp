@@ -127,9 +127,9 @@ constexpr double least_pivot = 1e-6;
 /// Gauss and Newton's rows, weighed by rho', see more curvature than a robust loss has, and steps
 /// come out short. Turns and shrinks the rows so that J'J becomes the loss' own curvature,
 /// sum of (rho' + 2 s rho'') J'J, as far as it is positive; J'r stays what it is. `factor` and
-/// `projected` are the triangle of the rows, `cost` is the channel's.
-void take_curvature_of_loss(const Eigen::MatrixXd& lacking, double cost, Eigen::MatrixXd& factor,
-                            Eigen::VectorXd& projected) {
+/// `projected` are the triangle of the rows, `double_cost` is twice the channel's cost.
+void take_curvature_of_loss(const Eigen::MatrixXd& lacking, double double_cost,
+                            Eigen::MatrixXd& factor, Eigen::VectorXd& projected) {
   const Eigen::VectorXd norms = factor.colwise().norm();
   if (!((factor.diagonal().array().abs() > least_pivot * norms.array()).all())) return;
   const Eigen::MatrixXd transposed = factor.transpose();
@@ -144,7 +144,7 @@ void take_curvature_of_loss(const Eigen::MatrixXd& lacking, double cost, Eigen::
   const Eigen::VectorXd turned =
       ((eigen.eigenvectors().transpose() * projected).array() / roots).matrix();
   // The squares of all rows have to sum to twice the cost.
-  if (!(turned.squaredNorm() < cost)) return;
+  if (!(turned.squaredNorm() < double_cost)) return;
   const Eigen::MatrixXd rows =
       roots.matrix().asDiagonal() * (eigen.eigenvectors().transpose() * factor);
   factor = rows;
@@ -159,7 +159,7 @@ ChannelSystem channel_system_of(const Triangle& triangle, const Eigen::MatrixXd*
       projected.squaredNorm() + triangle.unreachable[0] * triangle.unreachable[0] + beyond;
   double rest = std::hypot(triangle.unreachable[0], std::sqrt(beyond));
   if (lacking != nullptr) {
-    take_curvature_of_loss(*lacking, double_cost / 2, factor, projected);
+    take_curvature_of_loss(*lacking, double_cost, factor, projected);
     rest = std::sqrt(std::max(double_cost - projected.squaredNorm(), 0.0));
   }
   const Eigen::Index rows = factor.rows();

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -12,8 +13,6 @@
 
 namespace gonio::fit {
 namespace {
-
-constexpr double significance = 0.05;
 
 /// The terms of `rich` that are the anisotropic relatives of `plain`'s, where all others are the
 /// same; empty if `plain` is no special case of `rich`.
@@ -63,13 +62,24 @@ std::optional<LogRatios> log_ratios(const FitResult& rich, const std::vector<std
   return ratios;
 }
 
+/// Of Wald's statistic for `count` conditions.
+double p_value_of(double statistic, double count, double degrees_of_freedom) {
+  using boost::math::cdf;
+  using boost::math::complement;
+  if (std::isinf(degrees_of_freedom)) {
+    return cdf(complement(boost::math::chi_squared(count), statistic));
+  }
+  return cdf(complement(boost::math::fisher_f(count, degrees_of_freedom), statistic / count));
+}
+
 std::string verdict(const FitResult& plain, const FitResult& rich, double p_value) {
   const std::string p = p_value < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.4f}", p_value);
   const double gain =
       plain.metric_error > 0 ? 100 * (1 - rich.metric_error / plain.metric_error) : 0;
-  if (p_value > significance) {
-    return fmt::format("{} explains these data no better than {} ({}): take the isotropic one",
-                       rich.model.name(), plain.model.name(), p);
+  if (p_value > nested_significance) {
+    return fmt::format(
+        "{} explains these data no better than {} beyond chance ({}): take the isotropic one",
+        rich.model.name(), plain.model.name(), p);
   }
   return fmt::format(
       "these data are not isotropic ({}): the error of {} is {:.2g} % smaller than "
@@ -86,8 +96,8 @@ std::optional<NestedComparison> compare(const FitResult& plain, const FitResult&
   if (factor.info() != Eigen::Success) return std::nullopt;
   const double statistic = ratios->values.dot(factor.solve(ratios->values));
   if (!std::isfinite(statistic)) return std::nullopt;
-  const boost::math::chi_squared distribution(double(terms.size()));
-  const double p_value = boost::math::cdf(boost::math::complement(distribution, statistic));
+  const double p_value =
+      p_value_of(statistic, double(terms.size()), rich.uncertainty.degrees_of_freedom);
   return NestedComparison{rich.model.name(), statistic, p_value, verdict(plain, rich, p_value)};
 }
 

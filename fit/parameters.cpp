@@ -89,6 +89,21 @@ void make_homogeneous(const brdf::Model& model, Box& box) {
   box.amplitudes.offset[s] = 1;
 }
 
+/// An interval over the end of an angle's period would be two.
+void require_within_period(const brdf::Model& model, const Unknown& u,
+                           const ParameterBounds& bounds) {
+  if (!u.is_shape) return;
+  const brdf::Parameter& descriptor = model.shape()[u.index].descriptor;
+  if (descriptor.scale != brdf::Scale::periodic ||
+      (bounds.lower >= descriptor.lower && bounds.upper <= descriptor.upper)) {
+    return;
+  }
+  throw std::invalid_argument(fmt::format(
+      "bounds {}={}:{}: an angle's bounds have to lie between {:.6g} and {:.6g}; turn the table's "
+      "frame if the angle is near these",
+      u.name, bounds.lower, bounds.upper, descriptor.lower, descriptor.upper));
+}
+
 void require_inside(const Box& box, const Unknown& u, double value, std::string_view what) {
   if (std::isfinite(value) && value >= box.lower(u) && value <= box.upper(u)) return;
   throw std::invalid_argument(fmt::format("{} {}={}: outside the bounds {} to {}", what, u.name,
@@ -165,6 +180,7 @@ Box box_of(const brdf::Model& model, std::span<const std::string> channels,
             fmt::format("bounds {}={}:{} leave nothing of the model's own bounds {} to {}", u.name,
                         bounds.lower, bounds.upper, box.lower(u), box.upper(u)));
       }
+      require_within_period(model, u, bounds);
       lower_of(box, u) = lower;
       upper_of(box, u) = upper;
     }
@@ -193,6 +209,29 @@ void mark_unknowns(const Box& box, std::vector<Unknown>& unknowns) {
     unknown.dependent = !unknown.is_shape && std::find(free.begin(), free.end(),
                                                        Eigen::Index(unknown.index)) == free.end();
   }
+}
+
+bool goes_round(const brdf::Model& model, const Box& box, const Unknown& unknown) {
+  if (!unknown.is_shape) return false;
+  const brdf::Parameter& descriptor = model.shape()[unknown.index].descriptor;
+  return descriptor.scale == brdf::Scale::periodic && box.lower(unknown) == descriptor.lower &&
+         box.upper(unknown) == descriptor.upper;
+}
+
+double largest_change(const brdf::Model& model, std::span<const double> a,
+                      std::span<const double> b) {
+  double largest = 0;
+  for (std::size_t j = 0; j < a.size(); ++j) {
+    const brdf::Parameter& descriptor = model.shape()[j].descriptor;
+    double change = std::abs(a[j] - b[j]);
+    if (descriptor.scale == brdf::Scale::logarithmic) change = std::abs(std::log(a[j] / b[j]));
+    if (descriptor.scale == brdf::Scale::periodic) {
+      const double period = descriptor.upper - descriptor.lower;
+      change = std::min(change, std::abs(period - change));
+    }
+    largest = std::max(largest, change);
+  }
+  return largest;
 }
 
 }  // namespace gonio::fit

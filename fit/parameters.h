@@ -63,6 +63,14 @@ struct Box {
 /// whose amplitudes are not one rho_d and one rho_s.
 Box box_of(const brdf::Model& model, std::span<const std::string> channels, const Options& options);
 
+/// True for an angle that the box lets go around its period: its bounds are no limits.
+bool goes_round(const brdf::Model& model, const Box& box, const Unknown& unknown);
+
+/// The largest change of a shape parameter between two shapes: of the logarithm of a roughness, of
+/// an angle in radians and around its period.
+double largest_change(const brdf::Model& model, std::span<const double> a,
+                      std::span<const double> b);
+
 /// Says of each unknown whether the box fixes it, or whether it depends on another one.
 void mark_unknowns(const Box& box, std::vector<Unknown>& unknowns);
 

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "fit/compression.h"
+#include "fit/nested.h"
 #include "fit/projection.h"
 #include "fit/subset.h"
 #include "fit/weighted_samples.h"
@@ -62,8 +63,7 @@ bool can_be_homogeneous(const brdf::Model& model, std::span<const std::string> c
 std::optional<std::ptrdiff_t> place_of_needless_relative(std::span<const FitResult> results,
                                                          const std::vector<std::size_t>& order,
                                                          const FitResult& result) {
-  constexpr double significance = 0.05;
-  if (!result.nested || result.nested->p_value <= significance) return std::nullopt;
+  if (!result.nested || result.nested->p_value <= nested_significance) return std::nullopt;
   const auto found = std::find_if(order.begin(), order.end(), [&](std::size_t i) {
     return results[i].model.name() == result.nested->in;
   });

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
-#include <numeric>
-#include <utility>
 
 #include "fit/median.h"
 #include "fit/residual.h"
@@ -101,35 +99,10 @@ void count_chunk(const SampleChunk& chunk, const WeightedSamples& samples, const
                  });
 }
 
-/// The mean magnitude of the residuals from a model of 0.
-double mean_data(const WeightedSamples& samples, const PassOptions& passes) {
-  const std::vector<double> sums = chunk_pass(
-      samples, passes, [] { return std::pair(0.0, Eigen::VectorXd(column_stride)); },
-      [&](const SampleChunk& chunk, std::pair<double, Eigen::VectorXd>& state) {
-        const Eigen::MatrixXd nothing =
-            Eigen::MatrixXd::Zero(Eigen::Index(chunk.padded_count()), chunk.values.cols());
-        for_magnitudes(chunk, samples, nothing, state.second,
-                       [&](Eigen::Index /*channel*/, const Eigen::VectorXd& magnitudes) {
-                         state.first += magnitudes.head(Eigen::Index(chunk.directions.count)).sum();
-                       });
-      },
-      [](const std::pair<double, Eigen::VectorXd>& state) { return state.first; });
-  return std::accumulate(sums.begin(), sums.end(), 0.0) / double(samples.survey().used_values);
-}
-
-}  // namespace
-
-double least_deviation(const WeightedSamples& samples, const PassOptions& passes) {
-  const double least = 1e-10 * mean_data(samples, passes);
-  return least > 0 ? least : 1;
-}
-
-double robust_deviation(const WeightedSamples& samples, const BatchModel& model,
-                        const ParameterValues& values, double near, double least,
-                        const PassOptions& passes) {
-  const double median_near = near / deviation_over_median;
-  MedianSearch search(0.8 * median_near, 1.25 * median_near, median_tolerance,
-                      least / deviation_over_median);
+/// The median magnitude of the residuals, as well as `search` finds it.
+double median_residual(const WeightedSamples& samples, const BatchModel& model,
+                       const ParameterValues& values, MedianSearch search,
+                       const PassOptions& passes) {
   std::mutex mutex;
   while (!search.done()) {
     chunk_pass(
@@ -149,7 +122,30 @@ double robust_deviation(const WeightedSamples& samples, const BatchModel& model,
         });
     search.end_round();
   }
-  return std::max(deviation_over_median * search.value(), least);
+  return search.value();
+}
+
+}  // namespace
+
+double least_deviation(const WeightedSamples& samples, const BatchModel& model,
+                       const PassOptions& passes) {
+  const ParameterValues nothing{std::vector<double>(model.shape_count(), 1),
+                                Eigen::MatrixXd::Zero(Eigen::Index(model.amplitude_count()),
+                                                      Eigen::Index(samples.channel_count()))};
+  // Its size is enough.
+  const double least =
+      1e-10 * median_residual(samples, model, nothing, MedianSearch(0, 0, 0.9), passes);
+  return least > 0 ? least : 1;
+}
+
+double robust_deviation(const WeightedSamples& samples, const BatchModel& model,
+                        const ParameterValues& values, double near, double least,
+                        const PassOptions& passes) {
+  const double median_near = near / deviation_over_median;
+  const MedianSearch search(0.8 * median_near, 1.25 * median_near, median_tolerance,
+                            least / deviation_over_median);
+  return std::max(deviation_over_median * median_residual(samples, model, values, search, passes),
+                  least);
 }
 
 }  // namespace gonio::fit

@@ -9,8 +9,9 @@
 namespace gonio::fit {
 
 /// What a deviation is not to fall below, so that a table without noise has a scale too: 1e-10 of
-/// the data's mean magnitude under the metric. One pass.
-double least_deviation(const WeightedSamples& samples, const PassOptions& passes);
+/// the data's median magnitude under the metric. A few passes.
+double least_deviation(const WeightedSamples& samples, const BatchModel& model,
+                       const PassOptions& passes);
 
 /// 1.4826 times the (weighted) median magnitude of the metric's residuals: the standard deviation
 /// if they are normal; at least `least`. Two passes over the samples if it lies within a fifth of

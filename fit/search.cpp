@@ -26,14 +26,8 @@ constexpr double hopeless_cost_ratio = 1.2;
 /// In the scan neither the solution nor the subset is exact.
 constexpr double hopeless_scan_ratio = 4;
 
-bool same_minimum(const ParameterValues& a, const ParameterValues& b) {
-  for (std::size_t j = 0; j < a.shape.size(); ++j) {
-    if (std::abs(a.shape[j] - b.shape[j]) > 1e-4 * (std::abs(a.shape[j]) + std::abs(b.shape[j]))) {
-      return false;
-    }
-  }
-  return true;
-}
+/// Minima whose shapes differ by less are one.
+constexpr double same_minimum = 2e-4;
 
 /// A part of the table, and everything that is needed to solve the problem there.
 class Level {
@@ -66,7 +60,7 @@ class Level {
     if (options_.loss == Loss::none) return {};
     if (options_.loss_scale) return {options_.loss, *options_.loss_scale};
     const double deviation =
-        robust_deviation(samples_, model_, values, 0, least_deviation(samples_, {}), {});
+        robust_deviation(samples_, model_, values, 0, least_deviation(samples_, model_, {}), {});
     return {options_.loss, efficient_scale(options_.loss) * deviation};
   }
 
@@ -91,7 +85,8 @@ class Level {
     for (const Solution& solution : solutions) {
       if (solution.cost > hopeless_ratio * solutions.front().cost) break;
       if (std::none_of(kept.begin(), kept.end(), [&](const Start& other) {
-            return same_minimum(solution.values, other.values);
+            return largest_change(model_.model(), solution.values.shape, other.values.shape) <
+                   same_minimum;
           })) {
         kept.push_back({solution.values, solution.iterations});
       }
@@ -134,14 +129,15 @@ std::vector<Start> search_starts(const table::SampleTable& subset, const BatchMo
                             subset.size(), scanned_samples, 1);
   const Level coarse(thin, model, box, of_subset, floors);
   std::vector<Start> starts =
-      scan_minima(coarse, Scan(model.model(), box, options, false), options.threads);
+      coarse.solve(scan_minima(coarse, Scan(model.model(), box, options, false), options.threads),
+                   hopeless_scan_ratio);
   if (!options.start.empty()) {
+    // What the user gives is not judged by the thin part.
     const Scan given(model.model(), box, options, true);
     for (Start& start : scan_minima(coarse, given, options.threads)) {
       starts.push_back(std::move(start));
     }
   }
-  starts = coarse.solve(starts, hopeless_scan_ratio);
   return Level(subset, model, box, of_subset, floors).solve(starts, hopeless_cost_ratio);
 }
 

@@ -88,15 +88,33 @@ Eigen::MatrixXd freedom_of(std::span<const Unknown> unknowns, const Box& box,
   return freedom;
 }
 
-/// The 97.5 % quantile that an interval takes.
-double quantile_975(Covariance kind, double freedom, const WeightedSamples& samples, double rank) {
-  if (kind == Covariance::known_sigma) return 1.959963984540054;  // the normal distribution's
+/// The 97.5 % quantile of the normal distribution, or of Student's t.
+double quantile_975(double degrees) {
+  if (std::isinf(degrees)) return 1.959963984540054;
+  return boost::math::quantile(boost::math::students_t(degrees), 0.975);
+}
+
+/// Cut at the bounds; that of an angle that goes round runs past them, up to a whole period.
+std::pair<double, double> interval_of(double value, double half_width, const brdf::Model& model,
+                                      const Box& box, const Unknown& unknown) {
+  const double lower = box.lower(unknown);
+  const double upper = box.upper(unknown);
+  if (goes_round(model, box, unknown)) {
+    const double half = std::min(half_width, (upper - lower) / 2);
+    return {value - half, value + half};
+  }
+  return {std::max(value - half_width, lower), std::min(value + half_width, upper)};
+}
+
+/// The degrees of freedom of the intervals' distribution; infinity for the normal one.
+double freedom_of_intervals(Covariance kind, double freedom, const WeightedSamples& samples,
+                            double rank) {
+  if (kind == Covariance::known_sigma) return std::numeric_limits<double>::infinity();
   // The channels of a sample may err together: for the sandwich only samples count, and of the
   // unknowns those that one channel sees.
   const double channels = double(samples.channel_count());
   const double sample_freedom = double(samples.survey().used_samples) - std::ceil(rank / channels);
-  const double degrees = kind == Covariance::sandwich ? std::min(freedom, sample_freedom) : freedom;
-  return boost::math::quantile(boost::math::students_t(std::max(degrees, 1.0)), 0.975);
+  return std::max(kind == Covariance::sandwich ? std::min(freedom, sample_freedom) : freedom, 1.0);
 }
 
 Covariance kind_for(const Options& options, const WeightedSamples& samples, bool misfit) {
@@ -193,7 +211,7 @@ Uncertainty uncertainty_kind(const Solution& solution, const Identifiability& id
 }
 
 void complete_uncertainty(const Solution& solution, const Identifiability& identifiability,
-                          const WeightedSamples& samples, const Box& box,
+                          const WeightedSamples& samples, const brdf::Model& model, const Box& box,
                           std::span<const Unknown> unknowns, const Assessment& assessment,
                           Uncertainty& result) {
   const double rank = double(identifiability.rank());
@@ -220,7 +238,8 @@ void complete_uncertainty(const Solution& solution, const Identifiability& ident
   result.interval95.resize(count);
   result.correlation.assign(count, std::vector<std::optional<double>>(count));
   if (freedom <= 0 && result.kind != Covariance::known_sigma) return;
-  const double quantile = quantile_975(result.kind, freedom, samples, rank);
+  result.degrees_of_freedom = freedom_of_intervals(result.kind, freedom, samples, rank);
+  const double quantile = quantile_975(result.degrees_of_freedom);
   const Eigen::MatrixXd& covariance = result.covariance;
   for (std::size_t u = 0; u < count; ++u) {
     if (box.is_fixed(unknowns[u]) || identifiability.is_undetermined(u)) continue;
@@ -228,8 +247,7 @@ void complete_uncertainty(const Solution& solution, const Identifiability& ident
     const double stddev = std::sqrt(std::max(covariance(i, i), 0.0));
     const double value = solution.values[unknowns[u]];
     result.stddev[u] = stddev;
-    result.interval95[u] = {std::max(value - quantile * stddev, box.lower(unknowns[u])),
-                            std::min(value + quantile * stddev, box.upper(unknowns[u]))};
+    result.interval95[u] = interval_of(value, quantile * stddev, model, box, unknowns[u]);
   }
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = 0; b < count; ++b) {

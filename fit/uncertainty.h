@@ -56,10 +56,13 @@ struct Uncertainty {
   Covariance kind = Covariance::residual;
   /// Per unknown; none where it is fixed or undetermined.
   std::vector<std::optional<double>> stddev;
-  /// value -+ quantile times stddev, cut at the bounds. The quantile is the normal distribution's
-  /// for known sigma and Student's t else, with the degrees of freedom of the residuals, or of the
-  /// samples for the sandwich. Unknowns at a bound count as free: the bound is no measurement.
+  /// value -+ quantile times stddev, cut at the bounds; the angle of a free frame runs past them.
+  /// The quantile is the normal distribution's for known sigma and Student's t else, with the
+  /// degrees of freedom of the residuals, or of the samples for the sandwich. Unknowns at a bound
+  /// count as free: the bound is no measurement.
   std::vector<std::optional<std::pair<double, double>>> interval95;
+  /// Of that distribution: infinite for the normal one.
+  double degrees_of_freedom = 1;
   /// [unknown][unknown]; none where either has no stddev.
   std::vector<std::vector<std::optional<double>>> correlation;
   /// [unknown, unknown]; 0 for what is fixed or undetermined.
@@ -76,7 +79,7 @@ Uncertainty uncertainty_kind(const Solution& solution, const Identifiability& id
 
 /// Completes what uncertainty_kind() began. `assessment` is needed for the sandwich.
 void complete_uncertainty(const Solution& solution, const Identifiability& identifiability,
-                          const WeightedSamples& samples, const Box& box,
+                          const WeightedSamples& samples, const brdf::Model& model, const Box& box,
                           std::span<const Unknown> unknowns, const Assessment& assessment,
                           Uncertainty& uncertainty);
 

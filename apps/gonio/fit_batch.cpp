@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <new>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,7 @@ namespace {
 struct TableOutcome {
   TableSummary summary;
   nlohmann::ordered_json json = {};  // null unless it is asked for
+  bool is_wrong_usage = false;       // options that do not fit this table
 };
 
 TableOutcome outcome_of(const TableFit& table_fit, const std::string& table, bool as_json) {
@@ -28,7 +30,7 @@ TableOutcome outcome_of(const TableFit& table_fit, const std::string& table, boo
 TableOutcome failed(const std::string& table, const std::string& problem, FitMessages& messages) {
   const std::string error = problem.starts_with(table + ":") ? problem : table + ": " + problem;
   messages.error(error);
-  return {{.table = table, .error = error}, {{"table", table}, {"error", error}}};
+  return {{.table = table, .error = error}, {{"table", table}, {"error", error}}, false};
 }
 
 TableOutcome run_one(const FitRequest& request, const FitFiles& files, bool as_json,
@@ -39,6 +41,10 @@ TableOutcome run_one(const FitRequest& request, const FitFiles& files, bool as_j
     return outcome_of(table_fit, files.table, as_json);
   } catch (const std::bad_alloc&) {
     return failed(files.table, "out of memory", messages);
+  } catch (const std::invalid_argument& error) {
+    TableOutcome outcome = failed(files.table, error.what(), messages);
+    outcome.is_wrong_usage = true;
+    return outcome;
   } catch (const std::exception& error) {
     return failed(files.table, error.what(), messages);
   }
@@ -51,14 +57,18 @@ void run_batch(const FitRequest& request, const FitPlan& plan, const FitArgument
   std::vector<TableSummary> summaries;
   nlohmann::ordered_json json;
   FitMessages messages;
+  bool all_wrong_usage = true;
   for (const FitFiles& files : plan.tables) {
     messages.begin_table(files.table, summaries.size() + 1, plan.tables.size());
     TableOutcome outcome = run_one(request, files, arguments.json, messages);
     if (!outcome.summary.is_good()) invocation.exit_status = 1;
+    all_wrong_usage = all_wrong_usage && outcome.is_wrong_usage;
     if (arguments.json) json["tables"].push_back(std::move(outcome.json));
     summaries.push_back(std::move(outcome.summary));
   }
   messages.clear();
+  // What no table can be fitted with is no fault of the tables.
+  if (all_wrong_usage) invocation.exit_status = 2;
 
   if (!plan.summary.empty()) table::write_file(plan.summary, summary_csv(summaries));
   if (arguments.json) {
