@@ -11,6 +11,7 @@ namespace gonio::fit {
 namespace {
 
 constexpr int most_iterations = 12;
+constexpr int most_magnitude_iterations = 24;
 constexpr int most_halvings = 4;
 
 /// One channel's samples, in columns.
@@ -58,23 +59,22 @@ Residuals residuals_of(const Channel& channel, const Eigen::ArrayXd& model, Metr
   return out;
 }
 
-double cost_of_residuals(const Channel& channel, const Eigen::ArrayXd& residuals, Loss loss) {
-  return loss == Loss::none ? (channel.weights * residuals.square()).sum()
-                            : (channel.weights * residuals.abs()).sum();
+double median_magnitude(const Eigen::ArrayXd& values) {
+  Eigen::ArrayXd magnitudes = values.abs();
+  const auto middle = magnitudes.begin() + magnitudes.size() / 2;
+  std::nth_element(magnitudes.begin(), middle, magnitudes.end());
+  return *middle;
 }
 
-/// The weights of squares that stand for the cost near the residuals.
-Eigen::ArrayXd square_weights(const Channel& channel, const Eigen::ArrayXd& residuals, Loss loss) {
-  if (loss == Loss::none) return channel.weights;
-  const double least = 1e-3 * residuals.abs().mean() + 1e-300;
+/// The weights of squares that stand for the sum of magnitudes.
+Eigen::ArrayXd magnitude_weights(const Channel& channel, const Eigen::ArrayXd& residuals) {
+  const double least = 1e-3 * median_magnitude(residuals) + 1e-300;
   return channel.weights / residuals.abs().max(least);
 }
 
-Eigen::ArrayXd limited(Eigen::ArrayXd slopes) {
-  Eigen::ArrayXd sorted = slopes;
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  // A cube root is infinitely steep where nothing was seen.
-  return slopes.min(20 * sorted[sorted.size() / 2]);
+/// A cube root is infinitely steep where nothing was seen.
+Eigen::ArrayXd limited(const Eigen::ArrayXd& slopes) {
+  return slopes.min(20 * median_magnitude(slopes));
 }
 
 /// The amplitudes of one channel, and their cost.
@@ -93,7 +93,26 @@ class AmplitudeSolver {
         lower_(box.amplitude_lower(space_.free, c)),
         upper_(box.amplitude_upper(space_.free, c)) {}
 
-  Solved solve() const {
+  Solved solve() const { return loss_ == Loss::none ? least_squares() : least_magnitudes(); }
+
+ private:
+  Eigen::ArrayXd model_at(const Eigen::VectorXd& free) const {
+    return (channel_.basis * (space_.offset + space_.map * free)).array();
+  }
+
+  Solved at(const Eigen::VectorXd& free) const {
+    const Eigen::ArrayXd residuals = residuals_of(channel_, model_at(free), metric_).value;
+    if (loss_ == Loss::none) return {free, (channel_.weights * residuals.square()).sum()};
+    // Magnitudes, but none beyond the data's own size counts for more: a single wild one would
+    // drown the differences between shapes.
+    const double size =
+        median_magnitude(
+            residuals_of(channel_, Eigen::ArrayXd::Zero(residuals.size()), metric_).value) +
+        1e-300;
+    return {free, (channel_.weights * residuals.abs() / (residuals.abs() + size)).sum()};
+  }
+
+  Solved least_squares() const {
     Solved best = at(linear_start());
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       const Solved next = improved(best);
@@ -103,14 +122,19 @@ class AmplitudeSolver {
     return best;
   }
 
- private:
-  Eigen::ArrayXd model_at(const Eigen::VectorXd& free) const {
-    return (channel_.basis * (space_.offset + space_.map * free)).array();
-  }
-
-  Solved at(const Eigen::VectorXd& free) const {
-    return {free, cost_of_residuals(channel_, residuals_of(channel_, model_at(free), metric_).value,
-                                    loss_)};
+  /// Each round a wild value pulls less by as much as there are others.
+  Solved least_magnitudes() const {
+    Eigen::VectorXd free = linear_start();
+    for (int iteration = 0; iteration < most_magnitude_iterations; ++iteration) {
+      const Eigen::ArrayXd model = model_at(free);
+      const Residuals residuals = residuals_of(channel_, model, metric_);
+      const Eigen::VectorXd next =
+          reweighted(model, residuals, magnitude_weights(channel_, residuals.value));
+      const bool settled = (next - free).norm() <= 1e-4 * next.norm();
+      free = next;
+      if (settled) break;
+    }
+    return at(free);
   }
 
   /// Minimises sum of weight * slope^2 * (model - target)^2.
@@ -128,14 +152,19 @@ class AmplitudeSolver {
     return weighted(channel_.weights, limited(near_data.slope), channel_.values);
   }
 
-  Solved improved(const Solved& now) const {
-    const Eigen::ArrayXd model = model_at(now.amplitudes);
-    const Residuals residuals = residuals_of(channel_, model, metric_);
+  /// The amplitudes that minimise the weighted squares near a model's values.
+  Eigen::VectorXd reweighted(const Eigen::ArrayXd& model, const Residuals& residuals,
+                             const Eigen::ArrayXd& weights) const {
     const Eigen::ArrayXd slopes = limited(residuals.slope);
     const Eigen::ArrayXd targets =
         (slopes > 0).select(model - residuals.value / slopes.max(1e-300), model);
+    return weighted(weights, slopes, targets);
+  }
+
+  Solved improved(const Solved& now) const {
+    const Eigen::ArrayXd model = model_at(now.amplitudes);
     Eigen::VectorXd free =
-        weighted(square_weights(channel_, residuals.value, loss_), slopes, targets);
+        reweighted(model, residuals_of(channel_, model, metric_), channel_.weights);
     Solved next = at(free);
     for (int halving = 0; halving < most_halvings && !(next.cost < now.cost); ++halving) {
       free = (free + now.amplitudes) / 2;

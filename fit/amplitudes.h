@@ -14,7 +14,7 @@ namespace gonio::fit {
 struct ShapeCost {
   Eigen::MatrixXd amplitudes;  // [amplitude, channel]
   /// Comparable between shapes: the weighted sum of squared residuals under the metric, or, with a
-  /// robust loss, of their magnitudes: these need no scale and do not mind outliers.
+  /// robust loss, of their magnitudes, limited: these need no scale and do not mind outliers.
   double cost;
 };
 

@@ -22,16 +22,17 @@ struct PassOptions {
 };
 
 /// Folds every chunk into a state: make_state() begins a task, fold(chunk, state) adds a chunk that
-/// is not empty, result_of(state) is what remains of it. A task is a fixed number of consecutive
-/// chunks, so that the order of all sums is fixed. Returns the tasks' results in the table's order,
-/// at least one.
+/// is not empty, result_of(state) is what remains of it. A task is a number of consecutive
+/// chunks that depends on the table alone, so that the order of all sums is fixed. Returns the
+/// tasks' results in the table's order, at least one.
 template <class MakeState, class Fold, class ResultOf>
 auto chunk_pass(const WeightedSamples& samples, const PassOptions& options,
                 const MakeState& make_state, const Fold& fold, const ResultOf& result_of) {
-  constexpr std::size_t chunks_per_task = 8;
   using State = decltype(make_state());
   using Result = decltype(result_of(std::declval<State&>()));
   const std::size_t chunks = samples.chunk_count();
+  // Few chunks make small tasks, so that all threads have some.
+  const std::size_t chunks_per_task = std::clamp<std::size_t>(chunks / 8, 1, 8);
   const std::size_t tasks =
       std::max<std::size_t>((chunks + chunks_per_task - 1) / chunks_per_task, 1);
   const std::function<void(double)> on_share = options.on_pass ? options.on_pass() : nullptr;

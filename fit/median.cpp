@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
+
+#include "brdf/pack.h"
 
 namespace gonio::fit {
 namespace {
@@ -18,24 +21,38 @@ inline std::size_t MedianSearch::Counts::bin_of(double magnitude) const {
   return std::size_t(std::int32_t(std::min(std::max(place, -1.0) + 1, above_)));
 }
 
-void MedianSearch::Counts::add(std::span<const double> magnitudes) {
+namespace {
+
+/// How many of the numbers lie below a bound; none of a NaN.
+GONIO_FOR_EACH_CPU std::uint64_t count_below(std::span<const double> numbers, double bound) {
+  std::uint64_t count = 0;
+  for (const double number : numbers) count += number < bound;
+  return count;
+}
+
+}  // namespace
+
+void MedianSearch::Counts::add(std::span<const double> magnitudes, bool with_zeros) {
   if (upper_ <= lower_) {
     for (const double magnitude : magnitudes) largest_ = std::max(largest_, magnitude);
   }
   // Most lie outside of the bracket: they are counted without going to their bin one by one.
   constexpr std::size_t block = 256;
   std::array<double, block> inside;
+  constexpr double least = std::numeric_limits<double>::denorm_min();
   for (std::size_t first = 0; first < magnitudes.size(); first += block) {
     const auto part = magnitudes.subspan(first, std::min(block, magnitudes.size() - first));
-    std::uint64_t below = 0;
+    const std::uint64_t zeros = with_zeros ? 0 : count_below(part, least);
+    const std::uint64_t below = count_below(part, std::max(lower_, with_zeros ? 0 : least));
+    const std::uint64_t up_to = count_below(part, upper_);
+    bins_.front() += below - zeros;
+    bins_.back() += part.size() - std::max(up_to, below);
+    if (up_to <= below) continue;
     std::uint64_t count = 0;
     for (const double magnitude : part) {
-      below += magnitude < lower_;
       inside[count] = magnitude;
-      count += magnitude >= lower_ && magnitude < upper_;
+      count += magnitude >= lower_ && magnitude < upper_ && (with_zeros || magnitude > 0);
     }
-    bins_.front() += below;
-    bins_.back() += part.size() - below - count;
     for (std::size_t i = 0; i < count; ++i) ++bins_[bin_of(inside[i])];
   }
 }

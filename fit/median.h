@@ -15,8 +15,8 @@ class MedianSearch {
   /// The counts of a part of the magnitudes; parts are added to the search in any order.
   class Counts {
    public:
-    /// Magnitudes, which must be at least 0 and no NaN.
-    void add(std::span<const double> magnitudes);
+    /// Magnitudes, which must be at least 0 and no NaN; those that are 0 may be left out.
+    void add(std::span<const double> magnitudes, bool with_zeros = true);
     /// Each as many times as the other span says.
     void add(std::span<const double> magnitudes, std::span<const std::uint64_t> times);
 

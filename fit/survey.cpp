@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 
+#include "brdf/pack.h"
 #include "fit/median.h"
 #include "table/file_error.h"
 #include "table/parallel.h"
@@ -16,7 +17,7 @@
 namespace gonio::fit {
 namespace {
 
-constexpr std::size_t rows_per_task = 32768;
+constexpr std::size_t rows_per_task = 8192;
 
 Survey survey_of_rows(const table::SampleTable& table, const table::SampleFilter& filter,
                       std::size_t first, std::size_t last) {
@@ -122,6 +123,16 @@ MedianSearch search_near_sample(const std::vector<double>& channel,
   return {quantile(0.5 - half), quantile(0.5 + half), floor_tolerance};
 }
 
+/// The magnitude of each value that is used and measured, else 0.
+GONIO_FOR_EACH_CPU void write_magnitudes(const double* values, const std::uint8_t* used,
+                                         std::size_t count, double* magnitudes) {
+  for (std::size_t r = 0; r < count; ++r) {
+    const double magnitude = std::abs(values[r]);
+    // False for a hole.
+    magnitudes[r] = used[r] != 0 && magnitude > 0 ? magnitude : 0;
+  }
+}
+
 /// One round of the searches, over a task's rows.
 void count_rows(const table::SampleTable& table, const table::SampleFilter& filter,
                 std::size_t first, std::size_t last, std::span<const MedianSearch> searches,
@@ -134,14 +145,8 @@ void count_rows(const table::SampleTable& table, const table::SampleFilter& filt
     for (std::size_t r = 0; r < size; ++r) used[r] = filter(start + r);
     for (std::size_t c = 0; c < searches.size(); ++c) {
       if (searches[c].done()) continue;
-      const double* values = table.values[c].data() + start;
-      std::size_t count = 0;
-      for (std::size_t r = 0; r < size; ++r) {
-        magnitudes[count] = std::abs(values[r]);
-        // False for a hole as well.
-        count += std::size_t(used[r] != 0 && magnitudes[count] > 0);
-      }
-      counts[c].add(std::span(magnitudes).first(count));
+      write_magnitudes(table.values[c].data() + start, used.data(), size, magnitudes.data());
+      counts[c].add(std::span(magnitudes).first(size), false);
     }
   }
 }

@@ -1,5 +1,8 @@
 // gonio: from measured reflectance to material parameters with error bars.
 #include <fmt/core.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <charconv>
@@ -103,6 +106,11 @@ int run(int argc, char** argv) {
 }  // namespace gonio::app
 
 int main(int argc, char** argv) {
+#ifdef __GLIBC__
+  // What one pass over a table frees the next one needs: not to be given back in between.
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+  mallopt(M_MMAP_THRESHOLD, 4 << 20);
+#endif
   // A file size limit and a closed pipe are reported like a full disk, not by a signal.
   std::signal(SIGXFSZ, SIG_IGN);
   try {
