@@ -39,7 +39,7 @@ std::vector<std::string> shape_names(const brdf::Model& model, std::size_t term)
 /// its kind.
 std::string term_name(const brdf::Model& model, std::size_t term) {
   const auto terms = model.terms();
-  const std::string name(terms[term]->description.name);
+  std::string name(terms[term]->description.name);
   if (std::count(terms.begin(), terms.end(), terms[term]) < 2) return name;
   for (const brdf::ModelParameter& parameter : model.amplitudes()) {
     if (parameter.term == term) return fmt::format("{} ({})", name, parameter.name);

@@ -23,6 +23,4 @@ ceres::Jet<Pack, N> select(const PackMask& mask, const ceres::Jet<Pack, N>& a,
 }  // namespace gonio::brdf
 
 template <>
-struct Eigen::NumTraits<gonio::brdf::Pack> : Eigen::GenericNumTraits<gonio::brdf::Pack> {
-  enum { IsInteger = 0, IsSigned = 1, IsComplex = 0, RequireInitialization = 0 };
-};
+struct Eigen::NumTraits<gonio::brdf::Pack> : Eigen::GenericNumTraits<gonio::brdf::Pack> {};
