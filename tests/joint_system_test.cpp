@@ -157,45 +157,46 @@ std::string name_of(const testing::TestParamInfo<std::tuple<fit::Metric, fit::Lo
 class JointSystemUnder : public testing::TestWithParam<std::tuple<fit::Metric, fit::Loss>> {
  protected:
   JointSystemUnder() {
-    const table::SampleFilter filter(table_, 80);
-    const std::vector<double> floors = fit::relative_floors(table_, filter, 1);
-    values_ = plain_values(table_, floors);
-    scale_ = loss_ == fit::Loss::none ? 1 : middling_scale(values_, metric_);
-    const fit::WeightedSamples samples(table_, batch_, {.metric = metric_},
-                                       fit::survey_of(table_, filter, 1), floors);
-    system_ = fit::joint_system_of(samples, batch_, some_values(), {loss_, scale_}, {});
+    const table::SampleFilter filter(measured, 80);
+    const std::vector<double> floors = fit::relative_floors(measured, filter, 1);
+    all_values = plain_values(measured, floors);
+    loss_scale = loss == fit::Loss::none ? 1 : middling_scale(all_values, metric);
+    const fit::WeightedSamples samples(measured, batch, {.metric = metric},
+                                       fit::survey_of(measured, filter, 1), floors);
+    compressed = fit::joint_system_of(samples, batch, some_values(), {loss, loss_scale}, {});
   }
 
-  fit::Metric metric_ = std::get<0>(GetParam());
-  fit::Loss loss_ = std::get<1>(GetParam());
-  table::SampleTable table_ = table_with_everything();
-  brdf::Model model_{"ward-aniso", brdf::Frame::free};
-  fit::BatchModel batch_{model_};
-  std::vector<PlainValue> values_;
-  double scale_ = 1;
-  fit::LinearSystem system_;
+  fit::Metric metric = std::get<0>(GetParam());
+  fit::Loss loss = std::get<1>(GetParam());
+  table::SampleTable measured = table_with_everything();
+  brdf::Model fitted_model{"ward-aniso", brdf::Frame::free};
+  fit::BatchModel batch{fitted_model};
+  std::vector<PlainValue> all_values;
+  double loss_scale = 1;
+  fit::LinearSystem compressed;
 };
 
 TEST_P(JointSystemUnder, HasTheCostOfAllTheSamples) {
-  ASSERT_GT(table_.size(), 4096u);
-  const auto expected = double(plain_cost(values_, metric_, loss_, scale_, plain(some_values())));
+  ASSERT_GT(measured.size(), 4096u);
+  const auto expected =
+      double(plain_cost(all_values, metric, loss, loss_scale, plain(some_values())));
   // 10,000 values, exponents of 1e-14 in the brightest.
-  EXPECT_NEAR(fit::cost_of(system_), expected, 1e-12 * expected);
+  EXPECT_NEAR(fit::cost_of(compressed), expected, 1e-12 * expected);
 }
 
 TEST_P(JointSystemUnder, HasTheGradientOfAllTheSamples) {
   const PlainParameters p = plain(some_values());
   for (std::size_t c = 0; c < 2; ++c) {
     std::vector<PlainValue> of_channel;
-    std::copy_if(values_.begin(), values_.end(), std::back_inserter(of_channel),
+    std::copy_if(all_values.begin(), all_values.end(), std::back_inserter(of_channel),
                  [&](const PlainValue& value) { return value.channel == c; });
-    const fit::ChannelSystem& system = system_[c];
+    const fit::ChannelSystem& system = compressed[c];
     Eigen::VectorXd gradient(unknown_count);
     gradient << system.amplitude_jacobian.transpose() * system.residuals,
         system.shape_jacobian.transpose() * system.residuals;
     for (Eigen::Index u = 0; u < unknown_count; ++u) {
       const auto cost_at = [&](long double by) {
-        return plain_cost(of_channel, metric_, loss_, scale_, moved(p, c, u, by));
+        return plain_cost(of_channel, metric, loss, loss_scale, moved(p, c, u, by));
       };
       const auto expected = double((cost_at(step) - cost_at(-step)) / (2 * step));
       // A sum of signed products, of which only the largest have the truncation above.
@@ -208,29 +209,29 @@ TEST_P(JointSystemUnder, HasTheGradientOfAllTheSamples) {
 }
 
 TEST_P(JointSystemUnder, HasTheCurvatureOfAllTheSamplesAtTheMinimum) {
-  fit::Options options{.metric = metric_, .loss = loss_};
-  if (loss_ != fit::Loss::none) options.loss_scale = scale_;
-  const fit::ParameterValues minimum = fit::fit(model_, table_, options).values;
-  const table::SampleFilter filter(table_, 80);
-  const fit::WeightedSamples samples(table_, batch_, {.metric = metric_},
-                                     fit::survey_of(table_, filter, 1),
-                                     fit::relative_floors(table_, filter, 1));
+  fit::Options options{.metric = metric, .loss = loss};
+  if (loss != fit::Loss::none) options.loss_scale = loss_scale;
+  const fit::ParameterValues minimum = fit::fit(fitted_model, measured, options).values;
+  const table::SampleFilter filter(measured, 80);
+  const fit::WeightedSamples samples(measured, batch, {.metric = metric},
+                                     fit::survey_of(measured, filter, 1),
+                                     fit::relative_floors(measured, filter, 1));
   const fit::LinearSystem system =
-      fit::joint_system_of(samples, batch_, minimum, {loss_, scale_}, {});
+      fit::joint_system_of(samples, batch, minimum, {loss, loss_scale}, {});
   // The relative metric may leave a noisy channel without a lobe, and so without curvature by the
   // shape.
   EXPECT_GT(minimum.amplitudes(1, 0), 0);
   for (std::size_t c = 0; c < 2; ++c) {
     if (minimum.amplitudes(1, Eigen::Index(c)) == 0) continue;
     const PlainCurvature expected =
-        plain_curvature(values_, metric_, loss_, scale_, c, plain(minimum));
+        plain_curvature(all_values, metric, loss, loss_scale, c, plain(minimum));
     Eigen::MatrixXd jacobian(system[c].residuals.size(), unknown_count);
     jacobian << system[c].amplitude_jacobian, system[c].shape_jacobian;
     const Curvature curvature = jacobian.transpose() * jacobian;
     // The Jacobian's differences, as above; a direction that is nearly flat in one of them.
-    EXPECT_LE(difference(curvature,
-                         loss_ == fit::Loss::none ? expected.weights : positive_part(expected)),
-              1e-6)
+    EXPECT_LE(
+        difference(curvature, loss == fit::Loss::none ? expected.weights : positive_part(expected)),
+        1e-6)
         << "channel " << c;
   }
 }
@@ -238,9 +239,9 @@ TEST_P(JointSystemUnder, HasTheCurvatureOfAllTheSamplesAtTheMinimum) {
 TEST_P(JointSystemUnder, HasTheCurvatureOfTheWeightsOrOfTheLossElsewhere) {
   for (std::size_t c = 0; c < 2; ++c) {
     const PlainCurvature expected =
-        plain_curvature(values_, metric_, loss_, scale_, c, plain(some_values()));
-    Eigen::MatrixXd jacobian(system_[c].residuals.size(), unknown_count);
-    jacobian << system_[c].amplitude_jacobian, system_[c].shape_jacobian;
+        plain_curvature(all_values, metric, loss, loss_scale, c, plain(some_values()));
+    Eigen::MatrixXd jacobian(compressed[c].residuals.size(), unknown_count);
+    jacobian << compressed[c].amplitude_jacobian, compressed[c].shape_jacobian;
     const Curvature curvature = jacobian.transpose() * jacobian;
     EXPECT_LE(std::min(difference(curvature, expected.weights),
                        difference(curvature, positive_part(expected))),
@@ -250,23 +251,23 @@ TEST_P(JointSystemUnder, HasTheCurvatureOfTheWeightsOrOfTheLossElsewhere) {
 }
 
 TEST_P(JointSystemUnder, HasTheSameBitsForAnyNumberOfThreads) {
-  const table::SampleFilter filter(table_, 80);
-  const fit::WeightedSamples samples(table_, batch_, {.metric = metric_},
-                                     fit::survey_of(table_, filter, 1),
-                                     fit::relative_floors(table_, filter, 1));
+  const table::SampleFilter filter(measured, 80);
+  const fit::WeightedSamples samples(measured, batch, {.metric = metric},
+                                     fit::survey_of(measured, filter, 1),
+                                     fit::relative_floors(measured, filter, 1));
   for (const int threads : {2, 7}) {
     const fit::LinearSystem other = fit::joint_system_of(
-        samples, batch_, some_values(), {loss_, scale_}, {.threads = threads, .on_pass = {}});
+        samples, batch, some_values(), {loss, loss_scale}, {.threads = threads, .on_pass = {}});
     for (std::size_t c = 0; c < 2; ++c) {
-      EXPECT_EQ(other[c].residuals, system_[c].residuals);
-      EXPECT_EQ(other[c].amplitude_jacobian, system_[c].amplitude_jacobian);
-      EXPECT_EQ(other[c].shape_jacobian, system_[c].shape_jacobian);
+      EXPECT_EQ(other[c].residuals, compressed[c].residuals);
+      EXPECT_EQ(other[c].amplitude_jacobian, compressed[c].amplitude_jacobian);
+      EXPECT_EQ(other[c].shape_jacobian, compressed[c].shape_jacobian);
     }
   }
 }
 
 TEST_P(JointSystemUnder, HasAFewRowsHoweverManySamplesThereAre) {
-  for (const fit::ChannelSystem& channel : system_) {
+  for (const fit::ChannelSystem& channel : compressed) {
     EXPECT_EQ(channel.residuals.size(), unknown_count + 1);
     EXPECT_TRUE(channel.residuals.allFinite() && channel.amplitude_jacobian.allFinite() &&
                 channel.shape_jacobian.allFinite());

@@ -116,7 +116,7 @@ std::vector<Distribution> distributions() {
 
 TEST(MedianInRounds, IsTheOneThatSortingFinds) {
   for (const Distribution& distribution : distributions()) {
-    for (const std::size_t count : {1, 2, 3, 10, 1001, 20000}) {
+    for (const std::size_t count : {1U, 2U, 3U, 10U, 1001U, 20000U}) {
       std::mt19937_64 random(count);
       Numbers numbers(count);
       for (double& x : numbers) x = distribution.draw(random);

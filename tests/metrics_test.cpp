@@ -65,27 +65,27 @@ std::string name_of(const testing::TestParamInfo<std::tuple<fit::Metric, fit::Lo
 class AFitUnder : public testing::TestWithParam<std::tuple<fit::Metric, fit::Loss>> {
  protected:
   AFitUnder() {
-    if (loss_ != fit::Loss::none) options_.loss_scale = scale_for(values_, metric_);
+    if (loss != fit::Loss::none) options.loss_scale = scale_for(all_values, metric);
   }
 
-  fit::Metric metric_ = std::get<0>(GetParam());
-  fit::Loss loss_ = std::get<1>(GetParam());
-  table::SampleTable table_ = noisy_brass();
-  std::vector<PlainValue> values_ =
-      plain_values(table_, fit::relative_floors(table_, table::SampleFilter(table_, 80), 1));
-  fit::Options options_{.metric = metric_, .loss = loss_};
+  fit::Metric metric = std::get<0>(GetParam());
+  fit::Loss loss = std::get<1>(GetParam());
+  table::SampleTable measured = noisy_brass();
+  std::vector<PlainValue> all_values =
+      plain_values(measured, fit::relative_floors(measured, table::SampleFilter(measured, 80), 1));
+  fit::Options options{.metric = metric, .loss = loss};
 };
 
 TEST_P(AFitUnder, EndsAtTheMinimumThatAnotherSolverFindsFromTheTruth) {
-  const fit::FitResult result = fit::fit(brdf::Model("ward-aniso"), table_, options_);
+  const fit::FitResult result = fit::fit(brdf::Model("ward-aniso"), measured, options);
   EXPECT_TRUE(result.converged);
-  const double scale = options_.loss_scale.value_or(1);
-  const PlainMinimum other = plain_minimum(values_, metric_, loss_, scale, truth);
+  const double scale = options.loss_scale.value_or(1);
+  const PlainMinimum other = plain_minimum(all_values, metric, loss, scale, truth);
   ASSERT_TRUE(other.converged);
   const PlainParameters found = plain(result.values);
   // Sums of 3,000 values in double, in another order.
   const double rounding = 1e-10;
-  EXPECT_NEAR(double(plain_cost(values_, metric_, loss_, scale, found)), result.cost,
+  EXPECT_NEAR(double(plain_cost(all_values, metric, loss, scale, found)), result.cost,
               rounding * result.cost);
   EXPECT_LE(result.cost, other.cost * (1 + rounding));
   const auto agree = [](long double a, long double b) { return std::abs(double(a / b - 1)); };
@@ -99,13 +99,13 @@ TEST_P(AFitUnder, EndsAtTheMinimumThatAnotherSolverFindsFromTheTruth) {
 }
 
 TEST_P(AFitUnder, ReportsTheErrorsOfAPlainLoop) {
-  const fit::FitResult result = fit::fit(brdf::Model("ward-aniso"), table_, options_);
+  const fit::FitResult result = fit::fit(brdf::Model("ward-aniso"), measured, options);
   const PlainParameters p = plain(result.values);
-  const auto error_under = [&](fit::Metric metric) {
+  const auto error_under = [&](fit::Metric reported) {
     long double squares = 0;
     long double weights = 0;
-    for (const PlainValue& value : values_) {
-      squares += value.weight * std::pow(value.residual(metric, p), 2);
+    for (const PlainValue& value : all_values) {
+      squares += value.weight * std::pow(value.residual(reported, p), 2);
       weights += value.weight;
     }
     return double(std::sqrt(squares / weights));
@@ -115,18 +115,18 @@ TEST_P(AFitUnder, ReportsTheErrorsOfAPlainLoop) {
     const double expected = error_under(fit::metric_from_name(name));
     EXPECT_NEAR(error, expected, 1e-10 * expected) << name;
   }
-  if (loss_ == fit::Loss::none) {
-    const double expected = error_under(metric_);
+  if (loss == fit::Loss::none) {
+    const double expected = error_under(metric);
     EXPECT_NEAR(result.metric_error, expected, 1e-10 * expected);
   }
 }
 
 TEST_P(AFitUnder, HasTheSameBitsForAnyNumberOfThreads) {
-  options_.loss_scale.reset();  // found: more passes
+  options.loss_scale.reset();  // found: more passes
   std::vector<fit::FitResult> results;
   for (const int threads : {1, 2, 7}) {
-    options_.threads = threads;
-    results.push_back(fit::fit(brdf::Model("ward-aniso"), table_, options_));
+    options.threads = threads;
+    results.push_back(fit::fit(brdf::Model("ward-aniso"), measured, options));
   }
   for (const fit::FitResult& other : results) {
     EXPECT_EQ(other.values.shape, results.front().values.shape);

@@ -345,7 +345,7 @@ TEST_P(BatchOf, HoldsTheTermsAndTheirDerivativesWhateverItsLength) {
   const fit::BatchModel batch(model);
   const std::vector<double> shape = some_shape(model);
   int compared = 0;
-  for (const std::size_t count : {1, 2, 3, 4, 5, 6, 7, 8, 9, 511, 512}) {
+  for (const std::size_t count : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 511U, 512U}) {
     const fit::DirectionChunk chunk = directions(count, count);
     Eigen::MatrixXd columns = Eigen::MatrixXd::Constant(
         fit::column_stride, Eigen::Index(batch.column_count(true)), std::nan(""));
