@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <numbers>
-#include <utility>
+#include <tuple>
 
 #include "fit/columns.h"
 #include "fit/residual.h"
@@ -218,8 +219,10 @@ class Assessor {
 
   /// Sorts the worst first, and leaves as many as are to be listed.
   void keep_largest(std::vector<Outlier>& outliers) const {
-    std::stable_sort(outliers.begin(), outliers.end(), [](const Outlier& a, const Outlier& b) {
-      return std::abs(a.residual) > std::abs(b.residual);
+    // A total order: the largest of all are the same whatever order the parts come in.
+    std::sort(outliers.begin(), outliers.end(), [](const Outlier& a, const Outlier& b) {
+      return std::tuple(-std::abs(a.residual), a.sample, a.channel) <
+             std::tuple(-std::abs(b.residual), b.sample, b.channel);
     });
     outliers.resize(std::min(outliers.size(), options_.most_listed));
   }
@@ -301,7 +304,6 @@ struct Part {
   ErrorSums errors;
   Eigen::MatrixXd score_products, curvature, powers;
   std::size_t outlier_count;
-  std::vector<Outlier> outliers;
   double log_variance;
 };
 
@@ -312,15 +314,19 @@ Assessment assess(const WeightedSamples& samples, const BatchModel& model,
                   std::span<const double> floors, const AssessmentOptions& options,
                   const PassOptions& passes) {
   const Assessor assessor(samples, model, values, unknowns, floors, options);
+  Assessment result;
+  std::mutex outliers_mutex;
   const std::vector<Part> parts = chunk_pass(
       samples, passes, [&] { return assessor.make_state(); },
       [&](const SampleChunk& chunk, State& state) { assessor.fold(chunk, state); },
-      [&](State& state) {
-        if (state.outliers.size() > options.most_listed) assessor.keep_largest(state.outliers);
-        return Part{state.errors,        state.score_products,      state.curvature,   state.powers,
-                    state.outlier_count, std::move(state.outliers), state.log_variance};
+      [&](const State& state) {
+        const std::lock_guard lock(outliers_mutex);
+        result.outliers.insert(result.outliers.end(), state.outliers.begin(), state.outliers.end());
+        if (result.outliers.size() / 4 > options.most_listed)
+          assessor.keep_largest(result.outliers);
+        return Part{state.errors, state.score_products, state.curvature,
+                    state.powers, state.outlier_count,  state.log_variance};
       });
-  Assessment result;
   ErrorSums errors;
   result.score_products = parts.front().score_products;
   result.curvature = parts.front().curvature;
@@ -334,7 +340,6 @@ Assessment assess(const WeightedSamples& samples, const BatchModel& model,
       powers += part.powers;
     }
     result.outlier_count += part.outlier_count;
-    result.outliers.insert(result.outliers.end(), part.outliers.begin(), part.outliers.end());
     result.log_variance += part.log_variance;
   }
   assessor.keep_largest(result.outliers);
