@@ -94,8 +94,9 @@ void print_list() {
 
 /// The parameters that --free-frame adds to the model.
 std::vector<brdf::ModelParameter> free_frame_parameters(const brdf::Model& model) {
+  const brdf::Model free(model.name(), brdf::Frame::free);
   std::vector<brdf::ModelParameter> angles;
-  for (const auto& p : brdf::Model(model.name(), brdf::Frame::free).shape()) {
+  for (const auto& p : free.shape()) {
     if (p.descriptor.name == brdf::tangent_angle.name) angles.push_back(p);
   }
   return angles;
