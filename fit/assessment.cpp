@@ -33,23 +33,12 @@ struct ErrorSums {
   }
 };
 
-/// The columns of one channel, all padded_count() long.
-struct ChannelColumns {
-  const double* values;
-  const double* model;
-  const double* cos_i;
-  const double* factors;
-  const double* weights;
-  double floor;
-  std::size_t count;
-};
-
 /// Where a value was measured its weight, else 0.
 inline Pack weight_at(const ChannelColumns& in, std::size_t i) {
   return select(less(Pack(0), Pack::load(in.factors + i)), Pack::load(in.weights + i), Pack(0));
 }
 
-GONIO_FOR_EACH_CPU void add_errors(const ChannelColumns& in, ErrorSums& sums) {
+GONIO_FOR_EACH_CPU void add_errors(const ChannelColumns& in, double floor, ErrorSums& sums) {
   std::array<Pack, error_names.size()> squares;
   squares.fill(Pack(0));
   Pack weights(0);
@@ -62,7 +51,7 @@ GONIO_FOR_EACH_CPU void add_errors(const ChannelColumns& in, ErrorSums& sums) {
     const Pack plain = model - f;
     const std::array<Pack, error_names.size()> residuals{
         plain, plain * cos_i, LogResidual::of(f, model, cos_i, one).value,
-        CubeRootResidual::of(f, model, cos_i, one).value, plain / larger(abs(f), Pack(in.floor))};
+        CubeRootResidual::of(f, model, cos_i, one).value, plain / larger(abs(f), Pack(floor))};
     for (std::size_t m = 0; m < residuals.size(); ++m) {
       squares[m] += weight * residuals[m] * residuals[m];
     }
@@ -195,14 +184,8 @@ class Assessor {
                state.rows.residuals.data(), state.powers.data());
     if (options_.scores) state.scores.topRows(rows).setZero();
     for (Eigen::Index c = 0; c < chunk.values.cols(); ++c) {
-      const ChannelColumns in{chunk.values.col(c).data(),
-                              state.model_values.col(c).data(),
-                              chunk.directions.wi_z.data(),
-                              chunk.factors.col(samples_.factor_column(c)).data(),
-                              chunk.weights.data(),
-                              floors_[std::size_t(c)],
-                              std::size_t(rows)};
-      add_errors(in, state.errors);
+      const ChannelColumns in = columns_of(chunk, samples_, c, state.model_values.col(c).data());
+      add_errors(in, floors_[std::size_t(c)], state.errors);
       with_residual(samples_.metric(), [&](auto residual) {
         write_rows<decltype(residual)>(in, options_.loss, state.rows, state.errors);
       });

@@ -16,24 +16,15 @@ namespace {
 using brdf::Pack;
 using brdf::PackMask;
 
-/// The columns of one channel that its rows are made of, all padded_count() long.
-struct ChannelColumns {
-  const double* values;
-  const double* model;
-  const double* cos_i;
-  const double* factors;
-  const double* weights;
-};
-
 /// Writes each row's weighted residual, what its Jacobian has to be multiplied by, and the share by
 /// which the loss' curvature, rho' + 2 s rho'', is less than the row's weight, rho'; returns the
 /// sum of weight * scale^2 * (rho - rho' s).
 template <class MetricResidual>
-GONIO_FOR_EACH_CPU double weigh(const ChannelColumns& in, const ScaledLoss& loss, std::size_t count,
-                                double* residuals, double* slopes, double* lacks) {
+GONIO_FOR_EACH_CPU double weigh(const ChannelColumns& in, const ScaledLoss& loss, double* residuals,
+                                double* slopes, double* lacks) {
   const Pack scale(loss.scale);
   Pack beyond(0);
-  for (std::size_t i = 0; i < count; i += Pack::size) {
+  for (std::size_t i = 0; i < in.count; i += Pack::size) {
     const auto residual = MetricResidual::of(Pack::load(in.values + i), Pack::load(in.model + i),
                                              Pack::load(in.cos_i + i), Pack::load(in.factors + i));
     const Pack weight = Pack::load(in.weights + i);
@@ -93,13 +84,10 @@ void fold_chunk(const SampleChunk& chunk, const WeightedSamples& samples, const 
   for (Eigen::Index c = 0; c < chunk.values.cols(); ++c) {
     const Eigen::VectorXd expected = basis * values.amplitudes.col(c);
     Eigen::MatrixXd& out = state.channels[std::size_t(c)].rows();
-    const ChannelColumns in{
-        chunk.values.col(c).data(), expected.data(), chunk.directions.wi_z.data(),
-        chunk.factors.col(samples.factor_column(c)).data(), chunk.weights.data()};
+    const ChannelColumns in = columns_of(chunk, samples, c, expected.data());
     state.beyond[c] += with_residual(samples.metric(), [&](auto residual) {
-      return weigh<decltype(residual)>(in, loss, std::size_t(rows),
-                                       out.col(amplitude_count + shape_count).data(), slopes.data(),
-                                       lacks.data());
+      return weigh<decltype(residual)>(in, loss, out.col(amplitude_count + shape_count).data(),
+                                       slopes.data(), lacks.data());
     });
     out.topLeftCorner(rows, amplitude_count) = basis;
     out.block(0, amplitude_count, rows, shape_count).setZero();

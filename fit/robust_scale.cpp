@@ -19,15 +19,6 @@ constexpr double median_tolerance = 1.5e-7;
 /// Shares of the largest weight that weights are counted in.
 constexpr double weight_steps = 65536;
 
-/// The columns of one channel, all padded_count() long.
-struct ChannelColumns {
-  const double* values;
-  const double* model;
-  const double* cos_i;
-  const double* factors;
-  std::size_t count;
-};
-
 /// Writes the magnitudes of the residuals.
 template <class MetricResidual>
 GONIO_FOR_EACH_CPU void write_magnitudes(const ChannelColumns& in, double* magnitudes) {
@@ -52,9 +43,7 @@ void for_magnitudes(const SampleChunk& chunk, const WeightedSamples& samples,
                     const Eigen::MatrixXd& f_r, Eigen::VectorXd& magnitudes,
                     const Function& function) {
   for (Eigen::Index c = 0; c < f_r.cols(); ++c) {
-    const ChannelColumns in{
-        chunk.values.col(c).data(), f_r.col(c).data(), chunk.directions.wi_z.data(),
-        chunk.factors.col(samples.factor_column(c)).data(), chunk.padded_count()};
+    const ChannelColumns in = columns_of(chunk, samples, c, f_r.col(c).data());
     with_residual(samples.metric(), [&](auto residual) {
       write_magnitudes<decltype(residual)>(in, magnitudes.data());
     });

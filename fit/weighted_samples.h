@@ -81,4 +81,25 @@ class WeightedSamples {
   bool shared_factors_;
 };
 
+/// What the rows of one channel are made of, in columns that are all padded_count() long.
+struct ChannelColumns {
+  const double* values;
+  const double* model;  // f_r
+  const double* cos_i;
+  const double* factors;
+  const double* weights;
+  std::size_t count;
+};
+
+/// Of a channel of a chunk of the samples; `model` holds the model's values.
+inline ChannelColumns columns_of(const SampleChunk& chunk, const WeightedSamples& samples,
+                                 Eigen::Index channel, const double* model) {
+  return {chunk.values.col(channel).data(),
+          model,
+          chunk.directions.wi_z.data(),
+          chunk.factors.col(samples.factor_column(channel)).data(),
+          chunk.weights.data(),
+          chunk.padded_count()};
+}
+
 }  // namespace gonio::fit
