@@ -198,15 +198,15 @@ TEST(ModelForTest, TheFrameIsFreeIfATangentAngleIsGiven) {
 }
 
 TEST(BoundModelTest, WantsTheTangentAngleOfEveryAnisotropicTermOrOfNone) {
-  const auto refusal_of = [](const char* model, std::vector<std::pair<const char*, double>> given) {
+  using Given = std::vector<std::pair<const char*, double>>;
+  const auto refusal_of = [](const char* model, const Given& given) {
     std::vector<NamedValues> values;
     for (const auto& [name, value] : given) values.push_back({name, {&value, 1}});
     return refusal([&] { BoundModel(model_for(model, values), 1, values); });
   };
   const char* two = "lambert+ward-aniso+ward-aniso";
-  std::vector<std::pair<const char*, double>> given{
-      {"rho_d", .1},   {"rho_s", .1},     {"alpha_x", .1},  {"alpha_y", .2},
-      {"rho_s_2", .1}, {"alpha_x_2", .1}, {"alpha_y_2", .2}};
+  Given given{{"rho_d", .1},   {"rho_s", .1},     {"alpha_x", .1},  {"alpha_y", .2},
+              {"rho_s_2", .1}, {"alpha_x_2", .1}, {"alpha_y_2", .2}};
   EXPECT_EQ(refusal_of(two, given), "");
   given.emplace_back("psi_2", 0.5);
   EXPECT_THAT(refusal_of(two, given), HasSubstr("missing, expected all parameters of "
