@@ -1,6 +1,7 @@
 #include "brdf/bound_model.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -104,9 +105,11 @@ BoundModel::BoundModel(Model model, std::size_t channel_count,
                        std::span<const NamedValues> parameters)
     : model_(std::move(model)),
       channel_count_(channel_count),
-      amplitudes_(channel_count * model_.amplitudes().size()),
+      coefficients_(channel_count * model_.basis_size()),
       shape_(model_.shape().size()) {
   refuse_unknown(model_, parameters);
+  const std::size_t amplitude_count = model_.amplitudes().size();
+  std::vector<double> amplitudes(channel_count * amplitude_count);
   for (const OrderedParameter& expected : ordered_parameters(model_)) {
     const std::span<const double> values = values_of(model_, expected, parameters);
     check_values(expected, values, channel_count);
@@ -115,17 +118,25 @@ BoundModel::BoundModel(Model model, std::size_t channel_count,
       continue;
     }
     for (std::size_t c = 0; c < channel_count; ++c) {
-      amplitudes_[c * model_.amplitudes().size() + expected.index] = values[c];
+      amplitudes[c * amplitude_count + expected.index] = values[c];
     }
+  }
+  const std::size_t basis_size = model_.basis_size();
+  for (std::size_t c = 0; c < channel_count; ++c) {
+    model_.coefficients(std::span(amplitudes).subspan(c * amplitude_count, amplitude_count),
+                        std::span(coefficients_).subspan(c * basis_size, basis_size));
   }
 }
 
 void BoundModel::f_r(const Direction<double>& wi, const Direction<double>& wo,
                      std::span<double> values) const {
-  const std::span<const double> amplitudes(amplitudes_);
-  const std::size_t count = model_.amplitudes().size();
+  std::array<double, most_basis_functions> basis{};
+  model_.basis(shape_, wi, wo, basis);
+  const double* coefficient = coefficients_.data();
   for (std::size_t c = 0; c < channel_count_; ++c) {
-    values[c] = model_.evaluate(amplitudes.subspan(c * count, count), shape_, wi, wo);
+    double sum = 0;
+    for (std::size_t b = 0; b < model_.basis_size(); ++b) sum += *coefficient++ * basis[b];
+    values[c] = std::min(sum, std::numeric_limits<double>::max());
   }
 }
 

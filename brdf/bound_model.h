@@ -53,6 +53,12 @@ class BoundModel {
 
   const Model& model() const { return model_; }
   std::size_t channel_count() const { return channel_count_; }
+  /// As in model().shape().
+  std::span<const double> shape() const { return shape_; }
+  /// Of the basis functions of model(), for one channel.
+  std::span<const double> coefficients(std::size_t channel) const {
+    return std::span(coefficients_).subspan(channel * model_.basis_size(), model_.basis_size());
+  }
 
   /// Writes f_r in 1/sr of every channel for the unit vectors `wi`, `wo`. Finite and, for
   /// non-negative amplitudes, at least 0; exactly 0 below the horizon.
@@ -62,7 +68,7 @@ class BoundModel {
  private:
   Model model_;
   std::size_t channel_count_;
-  std::vector<double> amplitudes_;  // [channel][amplitude]
+  std::vector<double> coefficients_;  // [channel][basis function]
   std::vector<double> shape_;
 };
 

@@ -48,9 +48,14 @@ struct FreeFrame {
     return all;
   }();
 
+  template <class S>
+  static std::array<S, basis_size<T>> coefficients(const std::array<S, amplitudes.size()>& given) {
+    return coefficients_of<T, S>(given);
+  }
+
   template <class S, class D>
-  static std::array<S, amplitudes.size()> basis(const std::array<S, own_shape + 1>& theta,
-                                                const Direction<D>& wi, const Direction<D>& wo) {
+  static std::array<S, basis_size<T>> basis(const std::array<S, own_shape + 1>& theta,
+                                            const Direction<D>& wi, const Direction<D>& wo) {
     using std::cos;
     using std::sin;
     const S c = cos(theta[own_shape]);

@@ -1,8 +1,10 @@
 // A model: a sum of terms, named `diffuse`, `specular`, `diffuse+specular` or
-// `diffuse+specular+specular`. The parameters of the second specular term bear the suffix `_2`.
+// `diffuse+specular+specular`, or a whole model of its own. The parameters of the second specular
+// term bear the suffix `_2`.
 //
-// f_r of channel c = sum over k of amplitudes[k][c] * basis_k(shape; wi, wo), in 1/sr. The
-// amplitudes differ per channel, the shape is shared by all channels.
+// f_r of channel c = sum over b of coefficient_b(amplitudes of c) * basis_b(shape; wi, wo), in
+// 1/sr. The amplitudes differ per channel, the shape is shared by all channels. Mostly the
+// coefficients are the amplitudes.
 #pragma once
 
 #include <cstddef>
@@ -24,17 +26,27 @@ struct TermEntry {
   std::span<const Parameter> shape;
   /// The position in `EvaluatedTerms`, for tables that other rooms build over the same list.
   std::size_t index;
-  /// Writes the basis values (as many as amplitudes) for the given shape.
+  std::size_t basis_size;
+  /// Writes the values of the basis functions for the given shape.
   void (*basis)(const double* shape, const Direction<double>& wi, const Direction<double>& wo,
                 double* values);
+  /// Writes the coefficients of the basis functions for the amplitudes of a channel.
+  void (*coefficients)(const double* amplitudes, double* coefficients);
 };
 
-/// Every term that users can name, in the order of the list.
+/// Every term that users can name, in the order of the list. A term that stands for a whole model
+/// may bear the name of a specular one, which is meant within a sum.
 std::span<const TermEntry> all_terms();
+
+/// True if the term is not 0 where all its amplitudes are: it has a part that no amplitude scales.
+bool has_fixed_part(const TermEntry& term);
 
 /// Where the tangent of the anisotropic terms points: along x of the table, or at an angle psi to
 /// it that is a parameter of each such term (free_frame.h).
 enum class Frame { of_table, free };
+
+/// No model has more basis functions.
+inline constexpr std::size_t most_basis_functions = 8;
 
 /// What the names of the second specular term's parameters end in.
 inline constexpr std::string_view second_lobe_suffix = "_2";
@@ -49,9 +61,9 @@ struct ModelParameter {
 /// An immutable composition of terms.
 class Model {
  public:
-  /// Parses `lambert`, `lambert+ward-aniso`, `lambert+ward+ward-aniso` or a bare specular name,
-  /// which brings its author's diffuse term. The frame makes no difference to a model without
-  /// anisotropic terms. Throws std::invalid_argument that lists what there is.
+  /// Parses `lambert`, `lambert+ward-aniso`, `lambert+ward+ward-aniso`, `strauss` or a bare
+  /// specular name, which brings its author's diffuse term. The frame makes no difference to a
+  /// model without anisotropic terms. Throws std::invalid_argument that lists what there is.
   explicit Model(std::string_view name, Frame frame = Frame::of_table);
 
   /// The canonical name, with the diffuse term spelled out; the same for either frame.
@@ -66,10 +78,22 @@ class Model {
   /// One value each, shared by all channels.
   std::span<const ModelParameter> shape() const { return shape_; }
 
-  /// Writes the value of each amplitude's basis function; `shape` as in shape(), `values` as in
-  /// amplitudes(). All are 0 below the horizon.
+  /// How many basis functions there are, over all terms.
+  std::size_t basis_size() const { return basis_terms_.size(); }
+  /// The term that each basis function belongs to.
+  std::span<const std::size_t> basis_terms() const { return basis_terms_; }
+  /// How the coefficients of the basis functions depend on the amplitudes: the least simple of the
+  /// terms' ways.
+  Coefficients coefficients_kind() const;
+
+  /// Writes the value of each basis function; `shape` as in shape(). All are finite, at least 0,
+  /// and 0 below the horizon.
   void basis(std::span<const double> shape, const Direction<double>& wi,
              const Direction<double>& wo, std::span<double> values) const;
+
+  /// Writes the coefficient of each basis function for one channel's amplitudes, as in
+  /// amplitudes().
+  void coefficients(std::span<const double> amplitudes, std::span<double> coefficients) const;
 
   /// f_r in 1/sr for one channel's amplitudes. Finite for any unit directions and any parameters
   /// within their bounds: a result too large for double saturates.
@@ -82,10 +106,11 @@ class Model {
   std::vector<const TermEntry*> terms_;
   std::vector<ModelParameter> amplitudes_;
   std::vector<ModelParameter> shape_;
+  std::vector<std::size_t> basis_terms_;
 };
 
 /// The canonical name of every model whose terms belong together by their authors: each diffuse
-/// term alone, and each specular term with its own diffuse.
+/// term alone, each specular term with its own diffuse, and the whole models.
 std::vector<std::string> model_names();
 
 }  // namespace gonio::brdf

@@ -173,6 +173,13 @@ inline Pack log(const Pack& x) {
   return e * Pack(ln2_high) + (f - (s * (f - z * series) - e * Pack(ln2_low)));
 }
 
+/// ln(1 + x) for finite x above -1, to 3 units in the last place: the logarithm of the rounded sum,
+/// put right by what the rounding took away.
+inline Pack log1p(const Pack& x) {
+  const Pack sum = Pack(1) + x;
+  return log(sum) + (x - (sum - Pack(1))) / sum;
+}
+
 /// The cube root of numbers from 0 to 1e307, to 2 units in the last place; 0 below 1e-300. A third
 /// of the exponent for a start (4 % off), then three of Halley's steps, each cubing the error.
 inline Pack cbrt(const Pack& x) {
@@ -199,6 +206,11 @@ template <class F>
 Pack each(const Pack& x, const F& function) {
   return Pack(Pack::Lanes{function(x[0]), function(x[1]), function(x[2]), function(x[3])});
 }
+template <class F>
+Pack each(const Pack& x, const Pack& y, const F& function) {
+  return Pack(Pack::Lanes{function(x[0], y[0]), function(x[1], y[1]), function(x[2], y[2]),
+                          function(x[3], y[3])});
+}
 
 }  // namespace pack_detail
 
@@ -218,6 +230,9 @@ inline Pack sin(const Pack& x) {
 }
 inline Pack cos(const Pack& x) {
   return pack_detail::each(x, [](double v) { return std::cos(v); });
+}
+inline Pack atan2(const Pack& y, const Pack& x) {
+  return pack_detail::each(y, x, [](double a, double b) { return std::atan2(a, b); });
 }
 
 }  // namespace gonio::brdf

@@ -5,9 +5,10 @@
 
 namespace gonio::brdf {
 
-/// How a search walks along a parameter: `logarithmic` for scales such as a roughness, `periodic`
-/// for an angle whose bounds are one period apart, so that both ends say the same.
-enum class Scale { linear, logarithmic, periodic };
+/// How a search walks along a parameter: `logarithmic` for scales such as a roughness,
+/// `logarithmic_from_one` (by ln(1 + p)) for exponents, which may be 0, and `periodic` for an angle
+/// whose bounds are one period apart, so that both ends say the same.
+enum class Scale { linear, logarithmic, logarithmic_from_one, periodic };
 
 struct Parameter {
   std::string_view name;

@@ -5,8 +5,12 @@
 #include <type_traits>
 #include <utility>
 
+#include "brdf/ashikhmin_shirley.h"
 #include "brdf/free_frame.h"
 #include "brdf/lambert.h"
+#include "brdf/oren_nayar.h"
+#include "brdf/phong.h"
+#include "brdf/strauss.h"
 #include "brdf/ward.h"
 
 namespace gonio::brdf {
@@ -14,10 +18,15 @@ namespace gonio::brdf {
 // clang-format off
 using Terms = std::tuple<
     Lambert,
+    OrenNayar,                     OrenNayarFull,
+    Phong,                         BlinnPhong,
     IsotropicWard<WardLobe>,       AnisotropicWard<WardLobe>,
     IsotropicWard<WardApproxLobe>, AnisotropicWard<WardApproxLobe>,
     IsotropicWard<WardDuerLobe>,   AnisotropicWard<WardDuerLobe>,
-    IsotropicWard<WardGmdLobe>,    AnisotropicWard<WardGmdLobe>>;
+    IsotropicWard<WardGmdLobe>,    AnisotropicWard<WardGmdLobe>,
+    AshikhminShirley<IsotropicExponent>,        AshikhminShirley<AnisotropicExponents>,
+    CoupledAshikhminShirley<IsotropicExponent>, CoupledAshikhminShirley<AnisotropicExponents>,
+    Strauss,                                    StraussListing>;
 // clang-format on
 
 namespace terms_detail {

@@ -12,26 +12,14 @@
 #include <cmath>
 #include <limits>
 
+#include "brdf/half_vector_lobe.h"
 #include "brdf/term.h"
 
 namespace gonio::brdf {
 
-namespace ward_detail {
-
-/// exp(-exponent) / denominator: 0 where the numerator underflows, whatever the denominator, and
-/// the largest finite number where the quotient overflows. Never NaN.
-template <class D, class S>
-S gaussian_over(const S& exponent, const S& denominator) {
-  using std::exp;
-  // -log of the smallest positive number: beyond it exp() is 0 and 0/0 would be NaN.
-  constexpr double underflow = std::numeric_limits<D>::max_exponent <= 128 ? 103.9 : 745.1;
-  const S largest((std::numeric_limits<D>::max)());
-  const S value = exp(-exponent) / denominator;
-  return select(less(exponent, S(D(underflow))), select(less(value, largest), value, largest),
-                S(D(0)));
-}
-
-}  // namespace ward_detail
+/// What the summaries of the lobes are written with.
+inline constexpr std::string_view ward_symbols =
+    "h = wi + wo; E = exp(-((hx/ax)^2 + (hy/ay)^2) / hz^2); ax = ay = alpha without -aniso";
 
 struct WardLobe {
   static constexpr std::string_view name = "ward";
@@ -49,8 +37,7 @@ struct WardLobe {
     const S v = S(h.y / h.z) / alpha_y;
     // Two roots: the product of two small cosines would underflow.
     const D roots = sqrt(wi.z) * sqrt(wo.z);
-    return ward_detail::gaussian_over<D>(S(u * u + v * v),
-                                         S(alpha_x * alpha_y * (D(4) * pi<D>() * roots)));
+    return exponential_over<D>(S(u * u + v * v), S(alpha_x * alpha_y * (D(4) * pi<D>() * roots)));
   }
 };
 
@@ -65,20 +52,14 @@ struct WardApproxLobe {
   template <class S, class D>
   static S value(const S& alpha_x, const S& alpha_y, const Direction<D>& wi,
                  const Direction<D>& wo) {
-    using std::abs;
     using std::sqrt;
     const Direction<D> h = half_vector(wi, wo);
-    // Scaled: the squares of a half vector between opposite grazing directions would underflow.
-    const D scale = larger(larger(D(abs(h.x)), D(abs(h.y))), h.z);
-    const D x = h.x / scale;
-    const D y = h.y / scale;
-    const D z = h.z / scale;
-    const D length = sqrt(x * x + y * y + z * z);
-    const S u = S(x / length) / alpha_x;
-    const S v = S(y / length) / alpha_y;
+    const D length = length_above_horizon(h);
+    const S u = S(h.x / length) / alpha_x;
+    const S v = S(h.y / length) / alpha_y;
     const D roots = sqrt(wi.z) * sqrt(wo.z);
-    return ward_detail::gaussian_over<D>(S((u * u + v * v) * (D(2) / (D(1) + z / length))),
-                                         S(alpha_x * alpha_y * (D(4) * pi<D>() * roots)));
+    return exponential_over<D>(S((u * u + v * v) * (D(2) / (D(1) + h.z / length))),
+                               S(alpha_x * alpha_y * (D(4) * pi<D>() * roots)));
   }
 };
 
@@ -95,8 +76,8 @@ struct WardDuerLobe {
     const Direction<D> h = half_vector(wi, wo);
     const S u = S(h.x / h.z) / alpha_x;
     const S v = S(h.y / h.z) / alpha_y;
-    return ward_detail::gaussian_over<D>(S(u * u + v * v),
-                                         S(alpha_x * alpha_y * (D(4) * pi<D>() * wi.z * wo.z)));
+    return exponential_over<D>(S(u * u + v * v),
+                               S(alpha_x * alpha_y * (D(4) * pi<D>() * wi.z * wo.z)));
   }
 };
 
@@ -116,7 +97,7 @@ struct WardGmdLobe {
     const S u = S(qx) / alpha_x;
     const S v = S(qy) / alpha_y;
     // (h.h)/hz^4 = (1 + q)/hz^2: hz^4 would underflow and give 0 * inf.
-    return ward_detail::gaussian_over<D>(
+    return exponential_over<D>(
         S(u * u + v * v),
         S(alpha_x * alpha_y * (pi<D>() * h.z * h.z / (D(1) + qx * qx + qy * qy))));
   }
@@ -155,7 +136,8 @@ struct IsotropicWard {
                                                .kind = TermKind::specular,
                                                .companion = "lambert",
                                                .summary = Lobe::summary,
-                                               .source = Lobe::source};
+                                               .source = Lobe::source,
+                                               .symbols = ward_symbols};
   static constexpr std::array<Parameter, 1> amplitudes{specular_albedo};
   static constexpr std::array<Parameter, 1> shape{
       ward_roughness("alpha",
@@ -176,6 +158,7 @@ struct AnisotropicWard {
                                                .companion = "lambert",
                                                .summary = Lobe::summary,
                                                .source = Lobe::source,
+                                               .symbols = ward_symbols,
                                                .anisotropic = true};
   static constexpr std::array<Parameter, 1> amplitudes{specular_albedo};
   static constexpr std::array<Parameter, 2> shape{

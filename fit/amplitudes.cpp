@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "fit/bounded_least_squares.h"
+#include "fit/channel_amplitudes.h"
 #include "fit/residual.h"
 
 namespace gonio::fit {
@@ -85,19 +85,18 @@ struct Solved {
 
 class AmplitudeSolver {
  public:
-  AmplitudeSolver(const Channel& channel, Metric metric, Loss loss, const Box& box, Eigen::Index c)
-      : channel_(channel),
-        metric_(metric),
-        loss_(loss),
-        space_(box.amplitudes),
-        lower_(box.amplitude_lower(space_.free, c)),
-        upper_(box.amplitude_upper(space_.free, c)) {}
+  AmplitudeSolver(const Channel& channel, const BatchModel& model, Metric metric, Loss loss,
+                  const Box& box, Eigen::Index c)
+      : channel_(channel), model_(model), metric_(metric), loss_(loss), amplitudes_(box, c) {}
+
+  /// All amplitudes, where the solution gives the free ones.
+  Eigen::VectorXd all(const Eigen::VectorXd& free) const { return amplitudes_.all(free); }
 
   Solved solve() const { return loss_ == Loss::none ? least_squares() : least_magnitudes(); }
 
  private:
   Eigen::ArrayXd model_at(const Eigen::VectorXd& free) const {
-    return (channel_.basis * (space_.offset + space_.map * free)).array();
+    return (channel_.basis * model_.coefficients(amplitudes_.all(free))).array();
   }
 
   Solved at(const Eigen::VectorXd& free) const {
@@ -141,9 +140,8 @@ class AmplitudeSolver {
   Eigen::VectorXd weighted(const Eigen::ArrayXd& weights, const Eigen::ArrayXd& slopes,
                            const Eigen::ArrayXd& targets) const {
     const Eigen::ArrayXd rows = weights.sqrt() * slopes;
-    const Eigen::MatrixXd matrix = (channel_.basis * space_.map).array().colwise() * rows;
-    const Eigen::VectorXd rhs = rows * (targets - (channel_.basis * space_.offset).array());
-    return bounded_least_squares(matrix, rhs, lower_, upper_);
+    const Eigen::MatrixXd basis = channel_.basis.array().colwise() * rows;
+    return solve_amplitudes(model_, amplitudes_, basis, (rows * targets).matrix());
   }
 
   /// The metric taken for linear near the measured values.
@@ -174,10 +172,10 @@ class AmplitudeSolver {
   }
 
   const Channel& channel_;
+  const BatchModel& model_;
   Metric metric_;
   Loss loss_;
-  const AmplitudeSpace& space_;
-  Eigen::VectorXd lower_, upper_;
+  FreeAmplitudes amplitudes_;
 };
 
 }  // namespace
@@ -187,7 +185,7 @@ ShapeCost best_amplitudes(const WeightedSamples& samples, std::span<const Sample
                           Loss loss) {
   std::vector<Eigen::MatrixXd> bases;
   for (const SampleChunk& chunk : chunks) {
-    bases.emplace_back(column_stride, Eigen::Index(model.amplitude_count()));
+    bases.emplace_back(column_stride, Eigen::Index(model.basis_size()));
     model.evaluate(chunk.directions, shape, false, bases.back());
   }
   ShapeCost result{
@@ -195,8 +193,9 @@ ShapeCost best_amplitudes(const WeightedSamples& samples, std::span<const Sample
       0};
   for (Eigen::Index c = 0; c < result.amplitudes.cols(); ++c) {
     const Channel channel = channel_of(samples, chunks, bases, c);
-    const Solved solved = AmplitudeSolver(channel, samples.metric(), loss, box, c).solve();
-    result.amplitudes.col(c) = box.amplitudes.offset + box.amplitudes.map * solved.amplitudes;
+    const AmplitudeSolver solver(channel, model, samples.metric(), loss, box, c);
+    const Solved solved = solver.solve();
+    result.amplitudes.col(c) = solver.all(solved.amplitudes);
     result.cost += solved.cost;
   }
   return result;

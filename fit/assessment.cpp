@@ -147,16 +147,21 @@ class Assessor {
       : samples_(samples),
         model_(model),
         values_(values),
+        coefficients_(model.coefficients(values.amplitudes)),
         unknowns_(unknowns),
         floors_(floors),
         options_(options),
-        with_curvature_(options.scores && options.loss.loss != Loss::none) {}
+        with_curvature_(options.scores && options.loss.loss != Loss::none) {
+    for (Eigen::Index c = 0; c < values.amplitudes.cols(); ++c) {
+      coefficient_jacobians_.push_back(model.coefficient_jacobian(values.amplitudes.col(c)));
+    }
+  }
 
   State make_state() const {
     const auto unknown_count = Eigen::Index(unknowns_.size());
     State state;
     state.columns.resize(column_stride, Eigen::Index(model_.column_count(true)));
-    state.powers.setZero(Eigen::Index(model_.amplitude_count()), 2);
+    state.powers.setZero(Eigen::Index(model_.basis_size()), 2);
     state.model_values.resize(column_stride, values_.amplitudes.cols());
     if (options_.scores) {
       state.score_products.setZero(unknown_count, unknown_count);
@@ -174,13 +179,13 @@ class Assessor {
     const auto rows = Eigen::Index(chunk.padded_count());
     model_.evaluate(chunk.directions, values_.shape, options_.scores, state.columns);
     state.model_values.topRows(rows).noalias() =
-        state.columns.topLeftCorner(rows, values_.amplitudes.rows()) * values_.amplitudes;
+        state.columns.topLeftCorner(rows, coefficients_.rows()) * coefficients_;
     // The padding holds directions, and so values.
     state.columns
         .block(Eigen::Index(chunk.directions.count), 0, rows - Eigen::Index(chunk.directions.count),
-               values_.amplitudes.rows())
+               coefficients_.rows())
         .setZero();
-    add_powers(state.columns.data(), model_.amplitude_count(), std::size_t(rows),
+    add_powers(state.columns.data(), model_.basis_size(), std::size_t(rows),
                state.rows.residuals.data(), state.powers.data());
     if (options_.scores) state.scores.topRows(rows).setZero();
     for (Eigen::Index c = 0; c < chunk.values.cols(); ++c) {
@@ -211,8 +216,8 @@ class Assessor {
   }
 
  private:
-  /// Calls add(unknown, amplitude, column) for each term of the gradient of the channel's model by
-  /// the unknowns: amplitude * column.
+  /// Calls add(unknown, factor, column) for each summand of the gradient of the channel's model by
+  /// the unknowns: factor * column.
   template <class Add>
   void for_gradient(std::size_t channel, const State& state, const Add& add) const {
     const auto column_stride_of = [&](std::size_t column) {
@@ -221,30 +226,34 @@ class Assessor {
     for (std::size_t u = 0; u < unknowns_.size(); ++u) {
       const Unknown& unknown = unknowns_[u];
       if (!unknown.is_shape) {
-        if (unknown.channel == channel) add(u, 1.0, column_stride_of(unknown.index));
+        if (unknown.channel != channel) continue;
+        const auto slopes = coefficient_jacobians_[channel].col(Eigen::Index(unknown.index));
+        for (Eigen::Index b = 0; b < slopes.size(); ++b) {
+          if (slopes[b] != 0) add(u, slopes[b], column_stride_of(std::size_t(b)));
+        }
         continue;
       }
       for (std::size_t d = 0; d < model_.derivatives().size(); ++d) {
         const BatchModel::Derivative derivative = model_.derivatives()[d];
         if (derivative.shape != unknown.index) continue;
-        add(u, values_.amplitudes(Eigen::Index(derivative.amplitude), Eigen::Index(channel)),
-            column_stride_of(model_.amplitude_count() + d));
+        add(u, coefficients_(Eigen::Index(derivative.basis), Eigen::Index(channel)),
+            column_stride_of(model_.basis_size() + d));
       }
     }
   }
 
   void add_scores(std::size_t channel, std::size_t rows, State& state) const {
-    for_gradient(channel, state, [&](std::size_t u, double amplitude, const double* column) {
-      add_products(state.scores.col(Eigen::Index(u)).data(), amplitude, state.rows.scores.data(),
+    for_gradient(channel, state, [&](std::size_t u, double factor, const double* column) {
+      add_products(state.scores.col(Eigen::Index(u)).data(), factor, state.rows.scores.data(),
                    column, rows);
     });
   }
 
   void add_curvature(std::size_t channel, std::size_t rows, State& state) const {
     state.gradients.topRows(Eigen::Index(rows)).setZero();
-    for_gradient(channel, state, [&](std::size_t u, double amplitude, const double* column) {
+    for_gradient(channel, state, [&](std::size_t u, double factor, const double* column) {
       state.gradients.col(Eigen::Index(u)).head(Eigen::Index(rows)) +=
-          amplitude * Eigen::Map<const Eigen::VectorXd>(column, Eigen::Index(rows));
+          factor * Eigen::Map<const Eigen::VectorXd>(column, Eigen::Index(rows));
     });
     for (Eigen::Index u = 0; u < state.gradients.cols(); ++u) {
       multiply_columns(state.weighted_gradients.col(u).data(), state.gradients.col(u).data(),
@@ -276,6 +285,8 @@ class Assessor {
   const WeightedSamples& samples_;
   const BatchModel& model_;
   const ParameterValues& values_;
+  Eigen::MatrixXd coefficients_;                        // [basis, channel]
+  std::vector<Eigen::MatrixXd> coefficient_jacobians_;  // per channel, [basis, amplitude]
   std::span<const Unknown> unknowns_;
   std::span<const double> floors_;
   const AssessmentOptions& options_;

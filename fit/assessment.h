@@ -52,7 +52,7 @@ struct Assessment {
   /// first.
   std::size_t outlier_count = 0;
   std::vector<Outlier> outliers;
-  /// Per amplitude, how many samples its basis function lives in: (sum of b^2)^2 / (sum of b^4).
+  /// Per basis function, how many samples it lives in: (sum of b^2)^2 / (sum of b^4).
   Eigen::VectorXd seen_by;
   /// Sum over the values of ln(2 pi sigma^2), for chi2.
   double log_variance = 0;

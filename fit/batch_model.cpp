@@ -53,10 +53,26 @@ GONIO_FOR_EACH_CPU void evaluate_jets(const DirectionChunk& chunk, const double*
   }
 }
 
+/// Writes d coefficient[b] / d amplitude[k] into jacobian[k * stride + b].
+template <brdf::Term T>
+void coefficient_jacobian_of(const double* amplitudes, double* jacobian, Eigen::Index stride) {
+  constexpr std::size_t amplitude_count = T::amplitudes.size();
+  using Jet = ceres::Jet<double, int(amplitude_count)>;
+  std::array<Jet, amplitude_count> given;
+  for (std::size_t k = 0; k < amplitude_count; ++k) given[k] = Jet(amplitudes[k], int(k));
+  const auto coefficients = brdf::coefficients_of<T, Jet>(given);
+  for (std::size_t k = 0; k < amplitude_count; ++k) {
+    for (std::size_t b = 0; b < coefficients.size(); ++b) {
+      jacobian[Eigen::Index(k) * stride + Eigen::Index(b)] = coefficients[b].v[Eigen::Index(k)];
+    }
+  }
+}
+
 using Evaluate = void (*)(const DirectionChunk&, const double*, const Columns&);
 struct BatchEntry {
   Evaluate values;
   Evaluate jets;
+  void (*coefficient_jacobian)(const double*, double*, Eigen::Index);
 };
 
 /// A term without a shape has no derivatives.
@@ -72,7 +88,8 @@ constexpr Evaluate jets_of() {
 template <std::size_t... I>
 constexpr std::array<BatchEntry, sizeof...(I)> make_entries(std::index_sequence<I...>) {
   return {BatchEntry{&evaluate_values<std::tuple_element_t<I, brdf::EvaluatedTerms>>,
-                     jets_of<std::tuple_element_t<I, brdf::EvaluatedTerms>>()}...};
+                     jets_of<std::tuple_element_t<I, brdf::EvaluatedTerms>>(),
+                     &coefficient_jacobian_of<std::tuple_element_t<I, brdf::EvaluatedTerms>>}...};
 }
 
 /// By TermEntry::index.
@@ -88,33 +105,58 @@ void DirectionChunk::pad() {
   }
 }
 
-BatchModel::BatchModel(const brdf::Model& model) : model_(&model) {
-  std::size_t first_amplitude = 0;
+BatchModel::BatchModel(const brdf::Model& model)
+    : model_(&model), coefficients_kind_(model.coefficients_kind()) {
+  std::size_t first_basis = 0;
   std::size_t first_shape = 0;
   for (const brdf::TermEntry* term : model.terms()) {
-    for (std::size_t k = 0; k < term->amplitudes.size(); ++k) {
+    for (std::size_t b = 0; b < term->basis_size; ++b) {
       for (std::size_t j = 0; j < term->shape.size(); ++j) {
-        derivatives_.push_back({first_amplitude + k, first_shape + j});
+        derivatives_.push_back({first_basis + b, first_shape + j});
       }
     }
-    first_amplitude += term->amplitudes.size();
+    first_basis += term->basis_size;
     first_shape += term->shape.size();
   }
 }
 
 void BatchModel::evaluate(const DirectionChunk& chunk, std::span<const double> shape,
                           bool with_derivatives, Eigen::Ref<Eigen::MatrixXd> columns) const {
-  Columns out{columns.data(),
-              columns.data() + Eigen::Index(amplitude_count()) * columns.outerStride(),
+  Columns out{columns.data(), columns.data() + Eigen::Index(basis_size()) * columns.outerStride(),
               columns.outerStride()};
   const double* theta = shape.data();
   for (const brdf::TermEntry* term : model_->terms()) {
     const BatchEntry& entry = batch_entries[term->index];
     (with_derivatives ? entry.jets : entry.values)(chunk, theta, out);
     theta += term->shape.size();
-    out.values += Eigen::Index(term->amplitudes.size()) * out.stride;
-    out.derivatives += Eigen::Index(term->amplitudes.size() * term->shape.size()) * out.stride;
+    out.values += Eigen::Index(term->basis_size) * out.stride;
+    out.derivatives += Eigen::Index(term->basis_size * term->shape.size()) * out.stride;
   }
+}
+
+Eigen::MatrixXd BatchModel::coefficients(const Eigen::MatrixXd& amplitudes) const {
+  if (coefficients_kind_ == brdf::Coefficients::linear) return amplitudes;
+  Eigen::MatrixXd coefficients(Eigen::Index(basis_size()), amplitudes.cols());
+  for (Eigen::Index c = 0; c < amplitudes.cols(); ++c) {
+    model_->coefficients({amplitudes.col(c).data(), amplitude_count()},
+                         {coefficients.col(c).data(), basis_size()});
+  }
+  return coefficients;
+}
+
+Eigen::MatrixXd BatchModel::coefficient_jacobian(const Eigen::VectorXd& amplitudes) const {
+  Eigen::MatrixXd jacobian =
+      Eigen::MatrixXd::Zero(Eigen::Index(basis_size()), Eigen::Index(amplitude_count()));
+  Eigen::Index first_amplitude = 0;
+  Eigen::Index first_basis = 0;
+  for (const brdf::TermEntry* term : model_->terms()) {
+    batch_entries[term->index].coefficient_jacobian(amplitudes.data() + first_amplitude,
+                                                    &jacobian(first_basis, first_amplitude),
+                                                    jacobian.outerStride());
+    first_amplitude += Eigen::Index(term->amplitudes.size());
+    first_basis += Eigen::Index(term->basis_size);
+  }
+  return jacobian;
 }
 
 }  // namespace gonio::fit

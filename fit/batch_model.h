@@ -36,24 +36,25 @@ struct DirectionChunk {
   void pad();
 };
 
-/// Evaluates into columns: first the basis functions, one per amplitude of the model, then each
-/// derivative d basis[amplitude] / d shape[parameter] that is not zero by construction.
+/// Evaluates into columns: first the basis functions of the model, then each derivative
+/// d basis[function] / d shape[parameter] that is not zero by construction.
 class BatchModel {
  public:
   /// What a derivative column holds.
   struct Derivative {
-    std::size_t amplitude;
+    std::size_t basis;
     std::size_t shape;
   };
 
   explicit BatchModel(const brdf::Model& model);
 
   const brdf::Model& model() const { return *model_; }
+  std::size_t basis_size() const { return model_->basis_size(); }
   std::size_t amplitude_count() const { return model_->amplitudes().size(); }
   std::size_t shape_count() const { return model_->shape().size(); }
   std::span<const Derivative> derivatives() const { return derivatives_; }
   std::size_t column_count(bool with_derivatives) const {
-    return amplitude_count() + (with_derivatives ? derivatives_.size() : 0);
+    return basis_size() + (with_derivatives ? derivatives_.size() : 0);
   }
 
   /// Writes the first chunk.count rows, and those of its padding, of the first column_count()
@@ -61,9 +62,18 @@ class BatchModel {
   void evaluate(const DirectionChunk& chunk, std::span<const double> shape, bool with_derivatives,
                 Eigen::Ref<Eigen::MatrixXd> columns) const;
 
+  /// How the coefficients of the basis functions depend on the amplitudes.
+  brdf::Coefficients coefficients_kind() const { return coefficients_kind_; }
+  /// The coefficients of the basis functions, [basis, channel], for amplitudes [amplitude,
+  /// channel].
+  Eigen::MatrixXd coefficients(const Eigen::MatrixXd& amplitudes) const;
+  /// d coefficient / d amplitude, [basis, amplitude], at the amplitudes of a channel.
+  Eigen::MatrixXd coefficient_jacobian(const Eigen::VectorXd& amplitudes) const;
+
  private:
   const brdf::Model* model_;
   std::vector<Derivative> derivatives_;
+  brdf::Coefficients coefficients_kind_;
 };
 
 }  // namespace gonio::fit

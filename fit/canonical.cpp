@@ -39,11 +39,16 @@ double within_half_turn(double angle) {
   return std::clamp(angle - pi * std::floor(angle / pi + 0.5), -pi / 2, pi / 2);
 }
 
-ParameterValues with_ordered_roughness(const brdf::TermEntry& term, std::size_t first,
-                                       ParameterValues values) {
+/// The tangent along which the lobe is narrower: where the roughness is smaller, or the exponent
+/// larger.
+ParameterValues with_narrow_tangent(const brdf::TermEntry& term, std::size_t first,
+                                    ParameterValues values) {
   double& psi = values.shape[first + term.shape.size() - 1];
   psi = within_half_turn(psi);
-  if (values.shape[first] > values.shape[first + 1]) {
+  const bool are_exponents = term.shape[0].scale == brdf::Scale::logarithmic_from_one;
+  const double along_x = values.shape[first];
+  const double along_y = values.shape[first + 1];
+  if (are_exponents ? along_x < along_y : along_x > along_y) {
     std::swap(values.shape[first], values.shape[first + 1]);
     psi = within_half_turn(psi + std::numbers::pi / 2);
   }
@@ -73,7 +78,7 @@ ParameterValues canonical(const brdf::Model& model, const Box& box, ParameterVal
   };
   for (std::size_t t = 0; t < terms.size(); ++t) {
     if (model.has_free_frame() && terms[t]->description.anisotropic) {
-      take_if_inside(with_ordered_roughness(*terms[t], places[t].shape, values));
+      take_if_inside(with_narrow_tangent(*terms[t], places[t].shape, values));
     }
   }
   for (std::size_t t = 1; t < terms.size(); ++t) {

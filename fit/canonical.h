@@ -7,8 +7,8 @@
 namespace gonio::fit {
 
 /// The same f_r, described canonically, as far as the box allows:
-///   in a free frame alpha_x <= alpha_y, psi turned by a quarter where they were swapped, and in
-///   [-pi/2, pi/2);
+///   in a free frame alpha_x <= alpha_y (exponents nu >= nv), psi turned by a quarter where they
+///   were swapped, and in [-pi/2, pi/2);
 ///   of two equal lobes the first is the one whose shape comes first in ascending order.
 ParameterValues canonical(const brdf::Model& model, const Box& box, ParameterValues values);
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/scale.h"
+
 namespace gonio::fit {
 namespace {
 
@@ -77,6 +79,7 @@ void warn_of_insignificant_terms(const FitResult& result, const Identifiability&
   for (std::size_t term = 0; term < result.model.terms().size(); ++term) {
     const std::vector<std::string> shape = shape_names(result.model, term);
     if (shape.empty() || identifiability.is_absent(term)) continue;
+    if (brdf::has_fixed_part(*result.model.terms()[term])) continue;
     bool any_interval = false;
     bool any_significant = false;
     for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
@@ -100,9 +103,9 @@ constexpr double fewest_samples = 3;
 
 /// True for a lobe that is narrower than the samples are apart.
 bool is_between_samples(const FitResult& result, std::size_t term) {
-  for (std::size_t k = 0; k < result.model.amplitudes().size(); ++k) {
-    if (result.model.amplitudes()[k].term != term) continue;
-    if (result.seen_by[Eigen::Index(k)] >= fewest_samples) return false;
+  const auto basis_terms = result.model.basis_terms();
+  for (std::size_t b = 0; b < basis_terms.size(); ++b) {
+    if (basis_terms[b] == term && result.seen_by[Eigen::Index(b)] >= fewest_samples) return false;
   }
   return !shape_names(result.model, term).empty();
 }
@@ -200,8 +203,8 @@ void warn_of_weak_shapes(const FitResult& result, std::vector<std::string>& warn
     if (!unknown.is_shape || !result.uncertainty.stddev[u]) continue;
     const brdf::Parameter& descriptor = result.model.shape()[unknown.index].descriptor;
     const double stddev = *result.uncertainty.stddev[u];
-    if (descriptor.scale == brdf::Scale::logarithmic) {
-      const double value = std::abs(result.values[unknown]);
+    if (is_logarithmic(descriptor.scale)) {
+      const double value = parameter_slope(descriptor.scale, result.values[unknown]);
       if (stddev <= 0.5 * value) continue;
       warnings.push_back(
           fmt::format("{} is hardly determined: its standard deviation is {:.0f} % of its value",

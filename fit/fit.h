@@ -65,7 +65,7 @@ struct FitResult {
   double outlier_threshold;
   std::size_t outlier_count;
   std::vector<Outlier> outliers;
-  /// Per amplitude, how many samples its basis function lives in (assessment.h).
+  /// Per basis function, how many samples it lives in (assessment.h).
   Eigen::VectorXd seen_by;
   /// Akaike's criterion with the correction for few values (Hurvich & Tsai 1989) and Schwarz's, of
   /// normal residuals with the known sigma; only under chi2, without a loss and weights.

@@ -71,31 +71,53 @@ struct Part {
   Eigen::VectorXd beyond;
 };
 
+/// What the basis functions of each channel are multiplied by.
+struct ChannelCoefficients {
+  Eigen::MatrixXd values;                  // [basis, channel]
+  std::vector<Eigen::MatrixXd> jacobians;  // [basis, amplitude]; empty where both are the same
+};
+
+ChannelCoefficients coefficients_at(const BatchModel& model, const Eigen::MatrixXd& amplitudes) {
+  ChannelCoefficients coefficients{model.coefficients(amplitudes), {}};
+  if (model.coefficients_kind() == brdf::Coefficients::linear) return coefficients;
+  for (Eigen::Index c = 0; c < amplitudes.cols(); ++c) {
+    coefficients.jacobians.push_back(model.coefficient_jacobian(amplitudes.col(c)));
+  }
+  return coefficients;
+}
+
 void fold_chunk(const SampleChunk& chunk, const WeightedSamples& samples, const BatchModel& model,
-                const ParameterValues& values, const ScaledLoss& loss, State& state) {
+                std::span<const double> shape, const ChannelCoefficients& coefficients,
+                const ScaledLoss& loss, State& state) {
   const auto rows = Eigen::Index(chunk.padded_count());
+  const auto basis_size = Eigen::Index(model.basis_size());
   const auto amplitude_count = Eigen::Index(model.amplitude_count());
   const auto shape_count = Eigen::Index(model.shape_count());
-  model.evaluate(chunk.directions, values.shape, true, state.columns);
-  const auto basis = state.columns.topLeftCorner(rows, amplitude_count);
+  model.evaluate(chunk.directions, shape, true, state.columns);
+  const auto basis = state.columns.topLeftCorner(rows, basis_size);
   alignas(64) std::array<double, chunk_rows> slopes;
   alignas(64) std::array<double, chunk_rows> lacks;
   alignas(64) std::array<double, chunk_rows> weighted;
   for (Eigen::Index c = 0; c < chunk.values.cols(); ++c) {
-    const Eigen::VectorXd expected = basis * values.amplitudes.col(c);
+    const Eigen::VectorXd expected = basis * coefficients.values.col(c);
     Eigen::MatrixXd& out = state.channels[std::size_t(c)].rows();
     const ChannelColumns in = columns_of(chunk, samples, c, expected.data());
     state.beyond[c] += with_residual(samples.metric(), [&](auto residual) {
       return weigh<decltype(residual)>(in, loss, out.col(amplitude_count + shape_count).data(),
                                        slopes.data(), lacks.data());
     });
-    out.topLeftCorner(rows, amplitude_count) = basis;
+    if (coefficients.jacobians.empty()) {
+      out.topLeftCorner(rows, amplitude_count) = basis;
+    } else {
+      out.topLeftCorner(rows, amplitude_count).noalias() =
+          basis * coefficients.jacobians[std::size_t(c)];
+    }
     out.block(0, amplitude_count, rows, shape_count).setZero();
     for (std::size_t d = 0; d < model.derivatives().size(); ++d) {
       const BatchModel::Derivative derivative = model.derivatives()[d];
       out.col(amplitude_count + Eigen::Index(derivative.shape)).head(rows) +=
-          values.amplitudes(Eigen::Index(derivative.amplitude), c) *
-          state.columns.col(amplitude_count + Eigen::Index(d)).head(rows);
+          coefficients.values(Eigen::Index(derivative.basis), c) *
+          state.columns.col(basis_size + Eigen::Index(d)).head(rows);
     }
     out.topLeftCorner(rows, amplitude_count + shape_count).array().colwise() *=
         Eigen::Map<const Eigen::ArrayXd>(slopes.data(), rows);
@@ -170,6 +192,7 @@ LinearSystem joint_system_of(const WeightedSamples& samples, const BatchModel& m
                              const PassOptions& passes) {
   const std::size_t channels = samples.channel_count();
   const std::size_t columns = model.amplitude_count() + model.shape_count();
+  const ChannelCoefficients coefficients = coefficients_at(model, values.amplitudes);
   const std::vector<Part> parts = chunk_pass(
       samples, passes,
       [&] {
@@ -181,7 +204,7 @@ LinearSystem joint_system_of(const WeightedSamples& samples, const BatchModel& m
                      Eigen::MatrixXd(column_stride, Eigen::Index(model.column_count(true)))};
       },
       [&](const SampleChunk& chunk, State& state) {
-        fold_chunk(chunk, samples, model, values, loss, state);
+        fold_chunk(chunk, samples, model, values.shape, coefficients, loss, state);
       },
       [](const State& state) {
         return Part{triangles_of(state.channels), state.lacking, state.beyond};

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "fit/scale.h"
+
 namespace gonio::fit {
 namespace {
 
@@ -38,28 +40,31 @@ std::size_t first_shape_unknown(const FitResult& result, std::size_t term) {
   return std::size_t(found - result.unknowns.begin());
 }
 
-/// ln(alpha_x / alpha_y) of each term, and their covariance; none where one is not determined.
-struct LogRatios {
+/// How far the shapes along x and y of each term are apart, ln(alpha_x / alpha_y) for a roughness,
+/// and their covariance; none where one is not determined.
+struct Contrasts {
   Eigen::VectorXd values;
   Eigen::MatrixXd covariance;
 };
 
-std::optional<LogRatios> log_ratios(const FitResult& rich, const std::vector<std::size_t>& terms) {
+std::optional<Contrasts> contrasts_of(const FitResult& rich,
+                                      const std::vector<std::size_t>& terms) {
   const auto count = Eigen::Index(terms.size());
   Eigen::MatrixXd gradient = Eigen::MatrixXd::Zero(count, rich.uncertainty.covariance.cols());
-  LogRatios ratios{Eigen::VectorXd(count), {}};
+  Contrasts contrasts{Eigen::VectorXd(count), {}};
   for (Eigen::Index t = 0; t < count; ++t) {
     const std::size_t x = first_shape_unknown(rich, terms[std::size_t(t)]);
     const std::size_t y = x + 1;
     if (!rich.uncertainty.stddev[x] || !rich.uncertainty.stddev[y]) return std::nullopt;
-    const double alpha_x = rich.values[rich.unknowns[x]];
-    const double alpha_y = rich.values[rich.unknowns[y]];
-    ratios.values[t] = std::log(alpha_x / alpha_y);
-    gradient(t, Eigen::Index(x)) = 1 / alpha_x;
-    gradient(t, Eigen::Index(y)) = -1 / alpha_y;
+    const brdf::Scale scale = rich.model.shape()[rich.unknowns[x].index].descriptor.scale;
+    const double along_x = rich.values[rich.unknowns[x]];
+    const double along_y = rich.values[rich.unknowns[y]];
+    contrasts.values[t] = to_variable(scale, along_x) - to_variable(scale, along_y);
+    gradient(t, Eigen::Index(x)) = 1 / parameter_slope(scale, along_x);
+    gradient(t, Eigen::Index(y)) = -1 / parameter_slope(scale, along_y);
   }
-  ratios.covariance = gradient * rich.uncertainty.covariance * gradient.transpose();
-  return ratios;
+  contrasts.covariance = gradient * rich.uncertainty.covariance * gradient.transpose();
+  return contrasts;
 }
 
 /// Of Wald's statistic for `count` conditions.
@@ -90,11 +95,11 @@ std::string verdict(const FitResult& plain, const FitResult& rich, double p_valu
 std::optional<NestedComparison> compare(const FitResult& plain, const FitResult& rich) {
   const std::vector<std::size_t> terms = richer_terms(plain.model, rich.model);
   if (terms.empty()) return std::nullopt;
-  const std::optional<LogRatios> ratios = log_ratios(rich, terms);
-  if (!ratios) return std::nullopt;
-  const Eigen::LLT<Eigen::MatrixXd> factor(ratios->covariance);
+  const std::optional<Contrasts> contrasts = contrasts_of(rich, terms);
+  if (!contrasts) return std::nullopt;
+  const Eigen::LLT<Eigen::MatrixXd> factor(contrasts->covariance);
   if (factor.info() != Eigen::Success) return std::nullopt;
-  const double statistic = ratios->values.dot(factor.solve(ratios->values));
+  const double statistic = contrasts->values.dot(factor.solve(contrasts->values));
   if (!std::isfinite(statistic)) return std::nullopt;
   const double p_value =
       p_value_of(statistic, double(terms.size()), rich.uncertainty.degrees_of_freedom);

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "brdf/bound_model.h"
+#include "brdf/nearest_name.h"
+#include "fit/scale.h"
 
 namespace gonio::fit {
 namespace {
@@ -24,6 +27,17 @@ std::string names_of(std::span<const Unknown> unknowns) {
   return names;
 }
 
+/// "did you mean 'alpha_x'? ", or nothing.
+std::string suggestion(std::span<const Unknown> unknowns, const std::string& name) {
+  std::vector<std::string> known;
+  for (const Unknown& unknown : unknowns) {
+    known.push_back(unknown.parameter);
+    known.push_back(unknown.name);
+  }
+  const std::optional<std::string_view> nearest = brdf::nearest_name(name, known);
+  return nearest ? fmt::format("did you mean '{}'? ", *nearest) : "";
+}
+
 /// The unknowns that a user's name stands for. Throws if there is none.
 std::vector<Unknown> matching(std::span<const Unknown> unknowns, const std::string& name,
                               const brdf::Model& model) {
@@ -32,9 +46,8 @@ std::vector<Unknown> matching(std::span<const Unknown> unknowns, const std::stri
                [&](const Unknown& u) { return u.name == name || u.parameter == name; });
   if (found.empty()) {
     throw std::invalid_argument(
-        fmt::format("model {} with these channels has no parameter '{}'; "
-                    "it has {}",
-                    model.name(), name, names_of(unknowns)));
+        fmt::format("model {} with these channels has no parameter '{}'; {}it has {}", model.name(),
+                    name, suggestion(unknowns, name), names_of(unknowns)));
   }
   return found;
 }
@@ -223,8 +236,8 @@ double largest_change(const brdf::Model& model, std::span<const double> a,
   double largest = 0;
   for (std::size_t j = 0; j < a.size(); ++j) {
     const brdf::Parameter& descriptor = model.shape()[j].descriptor;
-    double change = std::abs(a[j] - b[j]);
-    if (descriptor.scale == brdf::Scale::logarithmic) change = std::abs(std::log(a[j] / b[j]));
+    double change =
+        std::abs(to_variable(descriptor.scale, a[j]) - to_variable(descriptor.scale, b[j]));
     if (descriptor.scale == brdf::Scale::periodic) {
       const double period = descriptor.upper - descriptor.lower;
       change = std::min(change, std::abs(period - change));

@@ -12,6 +12,7 @@
 #include "fit/compression.h"
 #include "fit/nested.h"
 #include "fit/projection.h"
+#include "fit/scale.h"
 #include "fit/subset.h"
 #include "fit/weighted_samples.h"
 
@@ -27,11 +28,20 @@ std::vector<double> ordinary_shape(const brdf::Model& model) {
   for (std::size_t j = 0; j < model.shape().size(); ++j) {
     const brdf::Parameter& p = model.shape()[j].descriptor;
     const double share = 0.65 + 0.05 * double(j % 4);
-    shape.push_back(p.scale == brdf::Scale::logarithmic
-                        ? p.search_lower * std::pow(p.search_upper / p.search_lower, share)
-                        : p.search_lower + share * (p.search_upper - p.search_lower));
+    shape.push_back(parameter_between(p.scale, p.search_lower, p.search_upper, share));
   }
   return shape;
+}
+
+/// Amplitudes of a material of some colour, away from all bounds.
+Eigen::MatrixXd ordinary_amplitudes(const brdf::Model& model, std::size_t channels) {
+  Eigen::MatrixXd amplitudes(Eigen::Index(model.amplitudes().size()), Eigen::Index(channels));
+  for (Eigen::Index k = 0; k < amplitudes.rows(); ++k) {
+    for (Eigen::Index c = 0; c < amplitudes.cols(); ++c) {
+      amplitudes(k, c) = 0.3 + 0.4 * double(c + 1) / double(channels + 1);
+    }
+  }
+  return amplitudes;
 }
 
 /// The parameters that the directions of `samples` cannot tell apart in an ordinary material.
@@ -39,9 +49,8 @@ std::set<std::string> undetermined_parameters(const WeightedSamples& samples,
                                               const BatchModel& batch,
                                               std::span<const std::string> channels) {
   const std::vector<Unknown> unknowns = unknowns_of(batch.model(), channels);
-  const ParameterValues values{
-      ordinary_shape(batch.model()),
-      Eigen::MatrixXd::Ones(Eigen::Index(batch.amplitude_count()), Eigen::Index(channels.size()))};
+  const ParameterValues values{ordinary_shape(batch.model()),
+                               ordinary_amplitudes(batch.model(), channels.size())};
   const LinearSystem system =
       linear_system_of(compress(samples, batch, values.shape, true, {}), batch, values.amplitudes);
   const Identifiability identifiability(system, batch.model(), box_of(batch.model(), channels, {}),

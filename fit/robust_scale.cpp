@@ -72,8 +72,8 @@ void add_measured(const double* factors, std::size_t count, std::vector<std::uin
 void count_chunk(const SampleChunk& chunk, const WeightedSamples& samples, const BatchModel& model,
                  const ParameterValues& values, State& state) {
   model.evaluate(chunk.directions, values.shape, false, state.basis);
-  const Eigen::MatrixXd f_r =
-      state.basis.topRows(Eigen::Index(chunk.padded_count())) * values.amplitudes;
+  const Eigen::MatrixXd f_r = state.basis.topRows(Eigen::Index(chunk.padded_count())) *
+                              model.coefficients(values.amplitudes);
   std::vector<std::uint64_t> times;
   if (samples.has_weight()) {
     const double weight_scale = weight_steps / samples.survey().largest_weight;
@@ -98,7 +98,7 @@ double median_residual(const WeightedSamples& samples, const BatchModel& model,
         samples, passes,
         [&] {
           return State{search.counts(),
-                       Eigen::MatrixXd(column_stride, Eigen::Index(model.amplitude_count())),
+                       Eigen::MatrixXd(column_stride, Eigen::Index(model.basis_size())),
                        Eigen::VectorXd(column_stride)};
         },
         [&](const SampleChunk& chunk, State& state) {

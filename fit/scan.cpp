@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "fit/scale.h"
+
 namespace gonio::fit {
 namespace {
 
@@ -41,13 +43,6 @@ std::pair<double, double> search_range(const brdf::Model& model, const Box& box,
           std::clamp(descriptor.search_upper, box.shape_lower[j], box.shape_upper[j])};
 }
 
-/// The point at the share `t` of the way through a range.
-double point_between(double lower, double upper, brdf::Scale scale, double t) {
-  return std::clamp(scale == brdf::Scale::logarithmic ? lower * std::pow(upper / lower, t)
-                                                      : lower + t * (upper - lower),
-                    lower, upper);
-}
-
 /// The product of the axes: the shapes in the order that is_grid_minimum() counts in.
 std::vector<std::vector<double>> grid_shapes(const std::vector<std::vector<double>>& axes) {
   std::size_t count = 1;
@@ -74,8 +69,8 @@ std::vector<std::vector<double>> axes_of(const brdf::Model& model, const Box& bo
     }
     const auto [lower, upper] = search_range(model, box, j);
     for (std::size_t i = 0; i < count; ++i) {
-      axes[j].push_back(point_between(lower, upper, model.shape()[j].descriptor.scale,
-                                      double(i) / double(count - 1)));
+      axes[j].push_back(parameter_between(model.shape()[j].descriptor.scale, lower, upper,
+                                          double(i) / double(count - 1)));
     }
   }
   return axes;
@@ -111,7 +106,7 @@ std::vector<std::vector<double>> scattered_shapes(const brdf::Model& model, cons
       }
       places[i].push_back(radical_inverse(i + 1, bases[places[i].size() % bases.size()]));
       shape.push_back(
-          point_between(lower, upper, model.shape()[j].descriptor.scale, places[i].back()));
+          parameter_between(model.shape()[j].descriptor.scale, lower, upper, places[i].back()));
     }
     shapes.push_back(std::move(shape));
   }

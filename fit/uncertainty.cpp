@@ -6,6 +6,8 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "fit/scale.h"
+
 namespace gonio::fit {
 namespace {
 
@@ -38,8 +40,8 @@ Eigen::MatrixXd significant_amplitudes(const LinearSystem& system,
 double natural_size(const brdf::Model& model, const Unknown& unknown,
                     const ParameterValues& values) {
   const brdf::Parameter& descriptor = model.shape()[unknown.index].descriptor;
-  return descriptor.scale == brdf::Scale::logarithmic ? std::abs(values[unknown])
-                                                      : (descriptor.upper - descriptor.lower) / 2;
+  return is_logarithmic(descriptor.scale) ? parameter_slope(descriptor.scale, values[unknown])
+                                          : (descriptor.upper - descriptor.lower) / 2;
 }
 
 /// The Jacobian of the rows by every unknown, [channel * rows + row, unknown]; the shape of terms
@@ -132,7 +134,9 @@ Identifiability::Identifiability(const LinearSystem& system, const brdf::Model& 
                                  const Box& box, const ParameterValues& values,
                                  std::span<const Unknown> unknowns) {
   const Eigen::MatrixXd amplitudes = significant_amplitudes(system, values.amplitudes);
-  absent_terms_.assign(model.terms().size(), true);
+  for (const brdf::TermEntry* term : model.terms()) {
+    absent_terms_.push_back(!brdf::has_fixed_part(*term));
+  }
   for (Eigen::Index k = 0; k < amplitudes.rows(); ++k) {
     if ((amplitudes.row(k).array() != 0).any()) {
       absent_terms_[model.amplitudes()[std::size_t(k)].term] = false;

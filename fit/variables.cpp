@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "fit/scale.h"
+
 namespace gonio::fit {
 namespace {
 
@@ -50,7 +52,7 @@ double& Variable::parameter(ParameterValues& values) const {
 
 double Variable::from(const ParameterValues& values) const {
   const double value = parameter(values);
-  return scale_ == brdf::Scale::logarithmic ? std::log(value) : value;
+  return to_variable(scale_, value);
 }
 
 void Variable::to(double variable, ParameterValues& values) const {
@@ -61,24 +63,23 @@ void Variable::to(double variable, ParameterValues& values) const {
     return;
   }
   // exp(log(bound)) may miss the bound by a rounding.
-  parameter(values) = std::clamp(scale_ == brdf::Scale::logarithmic ? std::exp(variable) : variable,
-                                 lower_, upper_);
+  parameter(values) = std::clamp(from_variable(scale_, variable), lower_, upper_);
 }
 
 double Variable::lower() const {
   if (scale_ == brdf::Scale::periodic) return -infinity;
-  return scale_ == brdf::Scale::logarithmic ? std::log(lower_) : lower_;
+  return to_variable(scale_, lower_);
 }
 
 double Variable::upper() const {
   if (scale_ == brdf::Scale::periodic) return infinity;
-  return scale_ == brdf::Scale::logarithmic ? std::log(upper_) : upper_;
+  return to_variable(scale_, upper_);
 }
 
 Eigen::VectorXd Variable::column(const ChannelSystem& system, std::size_t channel, const Box& box,
                                  const ParameterValues& values) const {
   if (is_shape_) {
-    const double slope = scale_ == brdf::Scale::logarithmic ? parameter(values) : 1;
+    const double slope = parameter_slope(scale_, parameter(values));
     return slope * system.shape_jacobian.col(Eigen::Index(index_));
   }
   if (channel != channel_) return {};

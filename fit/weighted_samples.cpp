@@ -143,9 +143,9 @@ void WeightedSamples::gather_noise(SampleChunk& chunk) const {
   const auto count = Eigen::Index(chunk.directions.count);
   Eigen::MatrixXd expected = chunk.values.topRows(count);
   if (reference_ != nullptr) {
-    Eigen::MatrixXd basis(column_stride, Eigen::Index(model_->amplitude_count()));
+    Eigen::MatrixXd basis(column_stride, Eigen::Index(model_->basis_size()));
     model_->evaluate(chunk.directions, reference_->shape, false, basis);
-    expected = basis.topRows(count) * reference_->amplitudes;
+    expected = basis.topRows(count) * model_->coefficients(reference_->amplitudes);
   }
   for (Eigen::Index c = 0; c < expected.cols(); ++c) {
     for (Eigen::Index r = 0; r < count; ++r) {

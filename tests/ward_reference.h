@@ -5,44 +5,15 @@
 // of a float or double input moves a half vector more than the evaluation's own error.
 #pragma once
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
-#include <cmath>
-
-#include "brdf/direction.h"
 #include "brdf/ward.h"
+#include "tests/reference.h"
 
 namespace gonio::tests {
-
-using Digits = boost::multiprecision::cpp_bin_float_50;
-
-/// The same number in 50 digits; the conversion of Boost 1.74 loses denormal ones.
-template <class D>
-Digits exact(D value) {
-  int exponent = 0;
-  const D mantissa = std::frexp(value, &exponent);
-  return ldexp(Digits(mantissa), exponent);
-}
 
 struct ReferenceValue {
   Digits value;     // f_r for rho_s = 1, in 1/sr
   Digits exponent;  // of E = exp(-exponent)
 };
-
-struct ReferenceHalfVector {
-  Digits x, y, z, length;
-};
-
-template <class D>
-ReferenceHalfVector reference_half_vector(const brdf::Direction<D>& wi,
-                                          const brdf::Direction<D>& wo) {
-  const Digits x = exact(wi.x) + exact(wo.x);
-  const Digits y = exact(wi.y) + exact(wo.y);
-  const Digits z = exact(wi.z) + exact(wo.z);
-  const Digits length = sqrt(x * x + y * y + z * z);
-  return {x, y, z, length};
-}
-
-inline Digits reference_pi() { return boost::math::constants::pi<Digits>(); }
 
 /// ((hx/ax)^2 + (hy/ay)^2) / hz^2, Ward 1992 eq. 5a
 inline Digits reference_exponent(const ReferenceHalfVector& h, const Digits& ax, const Digits& ay) {

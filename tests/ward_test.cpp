@@ -9,6 +9,7 @@
 #include <numbers>
 #include <random>
 
+#include "tests/directions.h"
 #include "tests/ward_reference.h"
 
 namespace gonio::tests {
@@ -33,7 +34,8 @@ class Draws {
     if (count_++ % 2 == 0) {
       const double radius = std::sqrt(-std::log(uniform(1e-9, 1)));
       const double phi = uniform(0, 2 * std::numbers::pi);
-      wo = reflected(wi, alpha_x * radius * std::cos(phi), alpha_y * radius * std::sin(phi));
+      wo = mirrored_about_slopes(wi, alpha_x * radius * std::cos(phi),
+                                 alpha_y * radius * std::sin(phi));
     }
     return wo.z > 0 ? Draw{wi, wo, alpha_x, alpha_y} : next();
   }
@@ -48,25 +50,9 @@ class Draws {
                                         uniform(0, 2 * std::numbers::pi));
   }
 
-  /// wi mirrored about the half vector of slopes (x, y).
-  static Direction<double> reflected(const Direction<double>& wi, double x, double y) {
-    const double scale = 2 * (wi.x * x + wi.y * y + wi.z) / (x * x + y * y + 1);
-    return {scale * x - wi.x, scale * y - wi.y, scale - wi.z};
-  }
-
   std::mt19937_64 generator_{1992};
   int count_ = 0;
 };
-
-template <class D>
-Direction<D> as(const Direction<double>& d) {
-  return {static_cast<D>(d.x), static_cast<D>(d.y), static_cast<D>(d.z)};
-}
-
-template <class D>
-double relative_error(D value, const Digits& truth) {
-  return abs((Digits(value) - truth) / truth).template convert_to<double>();
-}
 
 template <class Lobe>
 class WardLobeTest : public testing::Test {};

@@ -1,5 +1,6 @@
 // gonio models: the terms, the models composed of them, and what each parameter means.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,9 +17,6 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::size_t text_width = 100;
-/// What the formulas of the specular terms are written with.
-constexpr std::string_view symbols =
-    "h = wi + wo; E = exp(-((hx/ax)^2 + (hy/ay)^2) / hz^2); ax = ay = alpha without -aniso";
 
 struct ModelsOptions {
   std::string model;
@@ -26,7 +24,15 @@ struct ModelsOptions {
 };
 
 std::string_view kind_of(const brdf::TermDescription& term) {
-  return term.kind == brdf::TermKind::diffuse ? "diffuse" : "specular";
+  switch (term.kind) {
+    case brdf::TermKind::diffuse:
+      return "diffuse";
+    case brdf::TermKind::specular:
+      return "specular";
+    case brdf::TermKind::whole:
+      break;
+  }
+  return "whole";
 }
 
 // Readable -----------------------------------------------------------------------------------
@@ -64,7 +70,7 @@ std::string bounds_text(const brdf::Parameter& parameter) {
 
 std::string term_row(const brdf::TermEntry& term) {
   const std::string head =
-      fmt::format("  {:<18} {:<9} ", term.description.name, kind_of(term.description));
+      fmt::format("  {:<23} {:<9} ", term.description.name, kind_of(term.description));
   return head + wrapped(term.description.summary, head.size()) + "\n";
 }
 
@@ -79,16 +85,28 @@ std::string model_row(const std::string& name) {
 
 void print_list() {
   std::string text = "Terms, with unit amplitude and in 1/sr\n";
-  for (const brdf::TermEntry& term : brdf::all_terms()) text += term_row(term);
-  text += fmt::format("  {}\n\nModels and their parameters\n", symbols);
+  std::vector<std::string_view> symbols;
+  for (const brdf::TermEntry& term : brdf::all_terms()) {
+    text += term_row(term);
+    const std::string_view of_term = term.description.symbols;
+    if (of_term.empty() || std::find(symbols.begin(), symbols.end(), of_term) != symbols.end()) {
+      continue;
+    }
+    symbols.push_back(of_term);
+  }
+  for (const std::string_view line : symbols) text += fmt::format("  {}\n", wrapped(line, 2));
+  text += "\nModels and their parameters\n";
   for (const std::string& name : brdf::model_names()) text += model_row(name);
   text +=
-      "\nA model is diffuse, specular, diffuse+specular or diffuse+specular+specular; a specular "
-      "term\n"
-      "alone brings its author's diffuse term, a second one has parameters that end in _2. With\n"
-      "--free-frame every anisotropic term has the tangent's angle psi besides. 'gonio models "
-      "MODEL'\n"
-      "explains the parameters.\n";
+      "\nA model is diffuse, specular, diffuse+specular or diffuse+specular+specular, or a whole "
+      "one "
+      "that\n"
+      "takes no other term. A specular term alone brings its author's diffuse term, or is the "
+      "whole "
+      "model of\n"
+      "that name; a second one has parameters that end in _2. With --free-frame every anisotropic "
+      "term has\n"
+      "the tangent's angle psi besides. 'gonio models MODEL' explains the parameters.\n";
   print(text);
 }
 
@@ -102,33 +120,45 @@ std::vector<brdf::ModelParameter> free_frame_parameters(const brdf::Model& model
   return angles;
 }
 
-/// "wi, wo" and the shape of one term, by its place in the model.
-std::string arguments(const brdf::Model& model, std::size_t term) {
-  std::string text = "wi, wo";
-  std::string_view separator = "; ";
-  for (const brdf::ModelParameter& p : model.shape()) {
-    if (p.term != term) continue;
-    text += fmt::format("{}{}", separator, p.name);
-    separator = ", ";
+/// The names of those parameters that belong to a term, by its place in the model.
+std::vector<std::string> names_of(std::span<const brdf::ModelParameter> parameters,
+                                  std::size_t term) {
+  std::vector<std::string> names;
+  for (const brdf::ModelParameter& p : parameters) {
+    if (p.term == term) names.push_back(p.name);
   }
-  return text;
+  return names;
+}
+
+/// One summand: "rho_s ward(wi, wo; alpha)", or with the amplitudes among the arguments where the
+/// term is not proportional to one.
+std::string summand(const brdf::Model& model, std::size_t term) {
+  const brdf::TermDescription& description = model.terms()[term]->description;
+  std::vector<std::string> arguments = names_of(model.shape(), term);
+  std::vector<std::string> factors = names_of(model.amplitudes(), term);
+  if (description.coefficients != brdf::Coefficients::linear) {
+    arguments.insert(arguments.begin(), factors.begin(), factors.end());
+    factors.clear();
+  }
+  return fmt::format("{}{}{}(wi, wo{}{})", fmt::join(factors, " "), factors.empty() ? "" : " ",
+                     description.name, arguments.empty() ? "" : "; ", fmt::join(arguments, ", "));
 }
 
 std::string formula(const brdf::Model& model) {
-  std::string sum;
-  for (const brdf::ModelParameter& amplitude : model.amplitudes()) {
-    if (!sum.empty()) sum += " + ";
-    sum += fmt::format("{} {}({})", amplitude.name, model.terms()[amplitude.term]->description.name,
-                       arguments(model, amplitude.term));
+  std::vector<std::string> summands;
+  for (std::size_t term = 0; term < model.terms().size(); ++term) {
+    summands.push_back(summand(model, term));
   }
-  return sum;
+  return fmt::format("{}", fmt::join(summands, " + "));
 }
 
 std::string term_paragraph(const brdf::TermDescription& term) {
   std::string text =
       fmt::format("\n{} ({})\n  {}\n", term.name, kind_of(term), wrapped(term.summary, 2));
-  if (term.kind == brdf::TermKind::specular) text += fmt::format("  {}\n", symbols);
-  return text + fmt::format("  {}\n", wrapped(term.source, 2));
+  if (!term.symbols.empty()) text += fmt::format("  {}\n", wrapped(term.symbols, 2));
+  text += fmt::format("  {}\n", wrapped(term.source, 2));
+  if (!term.reciprocal) text += "  not reciprocal: exchanging wi and wo changes the value\n";
+  return text;
 }
 
 std::string parameter_row(const brdf::ModelParameter& parameter, bool per_channel) {
@@ -174,7 +204,8 @@ ordered_json json_of(const brdf::TermDescription& term) {
   return {{"name", term.name},
           {"kind", kind_of(term)},
           {"summary", term.summary},
-          {"source", term.source}};
+          {"source", term.source},
+          {"reciprocal", term.reciprocal}};
 }
 
 /// An infinite bound is null.

@@ -1,0 +1,79 @@
+// Oren and Nayar's formulas as they are printed, through polar angles and azimuths, in as many
+// digits as the type has: an evaluation that shares nothing with brdf/oren_nayar.h but its input.
+//
+// The input's components are taken as they are, not renormalised. An angle from the normal knows
+// the distance from the horizon to the type's digits only: cosines of 1e-300 need 400 of them.
+#pragma once
+
+#include <boost/math/constants/constants.hpp>
+
+#include "brdf/direction.h"
+#include "tests/ward_reference.h"
+
+namespace gonio::tests {
+
+using ManyDigits = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<400>,
+                                                 boost::multiprecision::et_off>;
+
+template <class N>
+struct PolarAngles {
+  N theta, phi;
+};
+
+template <class N, class D>
+PolarAngles<N> polar_angles(const brdf::Direction<D>& w) {
+  const N x(exact(w.x));
+  const N y(exact(w.y));
+  const N z(exact(w.z));
+  return {atan2(sqrt(x * x + y * y), z), x == 0 && y == 0 ? N(0) : N(atan2(y, x))};
+}
+
+/// The two polar angles in order and the cosine of the azimuth between them, 0 at the pole.
+template <class N>
+struct ReferenceAngles {
+  N a, b, cos_dphi;
+};
+
+template <class N, class D>
+ReferenceAngles<N> reference_angles(const brdf::Direction<D>& wi, const brdf::Direction<D>& wo) {
+  const PolarAngles<N> i = polar_angles<N>(wi);
+  const PolarAngles<N> o = polar_angles<N>(wo);
+  const N a = i.theta > o.theta ? i.theta : o.theta;
+  const N b = i.theta > o.theta ? o.theta : i.theta;
+  return {a, b, b == 0 ? N(0) : N(cos(i.phi - o.phi))};
+}
+
+/// f_r of the simplified form for rho = 1, in 1/sr.
+template <class N>
+N reference_oren_nayar(const N& sigma, const ReferenceAngles<N>& angles) {
+  const N s2 = sigma * sigma;
+  const N a = 1 - s2 / (s2 + N("0.33")) / 2;
+  const N b = N("0.45") * s2 / (s2 + N("0.09"));
+  const N lit = angles.cos_dphi > 0 ? angles.cos_dphi : N(0);
+  return (a + b * lit * sin(angles.a) * tan(angles.b)) / boost::math::constants::pi<N>();
+}
+
+/// f_r = rho direct + rho^2 interreflection, in 1/sr. `direct` is negative where the printed
+/// formula is.
+template <class N>
+struct FullOrenNayar {
+  N direct, interreflection;
+};
+
+template <class N>
+FullOrenNayar<N> reference_full_oren_nayar(const N& sigma, const ReferenceAngles<N>& angles) {
+  const N pi = boost::math::constants::pi<N>();
+  const auto& [a, b, d] = angles;
+  const N s2 = sigma * sigma;
+  const N g = s2 / (s2 + N("0.09"));
+  const N turns = 2 * b / pi;
+  const N product = 4 * a * b / (pi * pi);
+  const N c1 = 1 - s2 / (s2 + N("0.33")) / 2;
+  const N c2 = N("0.45") * g * (d >= 0 ? N(sin(a)) : N(sin(a) - turns * turns * turns));
+  const N c3 = N("0.125") * g * product * product;
+  const N direct = c1 + d * c2 * tan(b) + (1 - abs(d)) * c3 * tan(N((a + b) / 2));
+  const N interreflection = N("0.17") * s2 / (s2 + N("0.13")) * (1 - d * turns * turns);
+  return {direct / pi, interreflection / pi};
+}
+
+}  // namespace gonio::tests
