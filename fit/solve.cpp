@@ -253,7 +253,8 @@ void take_step(const Step& step, const VariableState& state, const Box& box, Sol
     moved.amplitudes.col(column) = space.offset + space.map * free;
   }
   solution.values = std::move(moved);
-  solution.cost -= step.gain;
+  // At a cost of nothing but roundings the gain may be the larger one.
+  solution.cost = std::max(solution.cost - step.gain, 0.0);
 }
 
 }  // namespace
