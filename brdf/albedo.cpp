@@ -24,8 +24,9 @@ constexpr std::size_t most_azimuth_intervals = 1000;
 /// positive between the roots -1/end and end, end = (s + sqrt(s^2 + wi.z^2)) / wi.z.
 class AzimuthOfHalfVectors {
  public:
-  AzimuthOfHalfVectors(const Direction<double>& wi, double psi)
+  AzimuthOfHalfVectors(const Direction<double>& wi, double psi, double decades_per_piece)
       : wi_(wi),
+        decades_per_piece_(decades_per_piece),
         cos_psi_(std::cos(psi)),
         sin_psi_(std::sin(psi)),
         s_(wi.x * cos_psi_ + wi.y * sin_psi_) {
@@ -45,7 +46,7 @@ class AzimuthOfHalfVectors {
   /// from 0 to D its decimal logarithm is, and from D to D + 1 1 - t/end is the square of a linear
   /// function, which takes square roots of the cosine at the horizon for what they are.
   std::vector<double> breaks() const {
-    const double pieces = std::ceil(decades_ / 2);
+    const double pieces = std::ceil(decades_ / decades_per_piece_);
     std::vector<double> result{-1};
     for (double k = 0; k <= pieces; ++k) result.push_back(decades_ * k / pieces);
     result.push_back(decades_ + 1);
@@ -81,6 +82,7 @@ class AzimuthOfHalfVectors {
 
  private:
   Direction<double> wi_;
+  double decades_per_piece_;
   double cos_psi_, sin_psi_;
   double s_;
   double end_;
@@ -88,11 +90,25 @@ class AzimuthOfHalfVectors {
   double decades_;  // its length
 };
 
-/// The azimuths, from that of wi on, between which the integral over t is smooth or found to be
-/// not: the quarters, and shares of them towards the quarters across the plane of incidence. Within
-/// wi.z of those the horizon draws near, and a lobe about the mirror direction is as narrow.
-std::vector<double> azimuth_breaks(double cos_i, bool whole_turn) {
-  std::vector<double> half{0, pi / 2, pi};
+/// How finely the integrals are divided before anything is known of the model.
+struct FirstDivision {
+  double decades_per_piece;  // of t
+  double azimuth_step;       // pi or a part of it
+};
+
+/// A jump or a kink can hide between the points of a coarse division; no lobe can, as it is a
+/// decade of t wide.
+FirstDivision first_division(double tolerance) {
+  if (tolerance > 1e-4) return {2, pi / 2};
+  return {1, pi / 4};
+}
+
+/// The azimuths, from that of wi on, that divide the integral over psi: steps, and ever smaller
+/// ones towards those across the plane of incidence. Within wi.z of them the horizon draws near,
+/// and a lobe about the mirror direction is as narrow.
+std::vector<double> azimuth_breaks(double cos_i, bool whole_turn, double step) {
+  std::vector<double> half;
+  for (double psi = 0; psi <= pi; psi += step) half.push_back(psi);
   for (double offset = cos_i; offset < 0.3; offset *= 10) {
     half.push_back(pi / 2 - offset);
     half.push_back(pi / 2 + offset);
@@ -129,11 +145,12 @@ Albedo basis_albedo(const Model& model, std::span<const double> shape, double th
   check(theta_i, phi_i, tolerance);
   const std::size_t count = model.basis_size();
   const Direction<double> wi = direction_from_radians(theta_i, phi_i);
+  const FirstDivision division = first_division(tolerance);
   std::vector<double> basis(count);
 
   // Per azimuth: the integral over t of each basis function, then the error of each.
   const auto over_t = [&](double psi, std::span<double> results) {
-    const AzimuthOfHalfVectors azimuth(wi, phi_i + psi);
+    const AzimuthOfHalfVectors azimuth(wi, phi_i + psi, division.decades_per_piece);
     const auto integrand = [&](double x, std::span<double> values) {
       const AzimuthOfHalfVectors::Point point = azimuth.at(x);
       model.basis(shape, wi, point.wo, basis);
@@ -150,8 +167,9 @@ Albedo basis_albedo(const Model& model, std::span<const double> shape, double th
   std::vector<double> any_error(2 * count);
   std::fill(any_error.begin() + std::ptrdiff_t(count), any_error.end(),
             std::numeric_limits<double>::infinity());
-  const Integrals sum = integrate(over_t, 2 * count, azimuth_breaks(std::cos(theta_i), whole_turn),
-                                  {0.9 * tolerance, any_error, most_azimuth_intervals});
+  const Integrals sum =
+      integrate(over_t, 2 * count, azimuth_breaks(wi.z, whole_turn, division.azimuth_step),
+                {0.9 * tolerance, any_error, most_azimuth_intervals});
   Albedo result;
   for (std::size_t b = 0; b < count; ++b) {
     const double sides = whole_turn ? 1 : 2;

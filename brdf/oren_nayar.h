@@ -1,27 +1,32 @@
 // Oren and Nayar's diffuse reflection from a surface of Lambertian V-cavities, whose slope angles
 // are normally distributed with the standard deviation sigma.
 //
-//   oren-nayar        the simplified form that they recommend (their eq. 30): the full form without
-//                     C3, without interreflection, and with C2 as if cos(dphi) were positive
-//   oren-nayar-full   the functional approximation of the whole model (their eq. 27 to 29): direct
-//                     illumination, linear in the albedo, plus interreflection, quadratic in it
+//   oren-nayar        the simplified form: the full form without C3, without interreflection, and
+//                     flat where the directions are on opposite sides
+//   oren-nayar-full   their approximation of the whole model: direct illumination, linear in the
+//                     albedo, plus interreflection, quadratic in it
 //
 // a and b are the larger and the smaller polar angle, dphi the azimuth between wi and wo. Neither
 // form goes through azimuths, which do not exist at the pole.
 //
 // f_r grows as 1/cos(b) where both directions graze the surface on the same side (both forms) or
-// anywhere but opposite each other (full form); there it saturates. The direct illumination of the
-// full form, as published, falls below 0 for sigma > 0.6644 rad (38 deg) where both directions
-// graze it opposite each other. It is 0 there: for rho_d near 1 the published sum with the
-// interreflection may be positive and is then smaller than the one here.
+// anywhere but opposite each other (full form); there it saturates. Close to dphi = 90 deg, where
+// the dot product of the horizontal components cancels, the first of these shares has a rounding of
+// epsilon/cos(b).
+//
+// The direct illumination of the full form, as published, falls below 0 for sigma > 0.6644 rad
+// (38 deg) where both directions graze the surface opposite each other: for sigma = 1 rad beyond
+// 77 deg, for sigma = pi/2 beyond 70 deg if both are equal. It is 0 here. For rho_d near 1 the
+// published sum with the interreflection is positive all the same, and is smaller than the one here
+// by what was cut off, at most 0.0861 rho_d.
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "brdf/lambert.h"
 #include "brdf/polar_angle.h"
+#include "brdf/saturated.h"
 #include "brdf/term.h"
 
 namespace gonio::brdf {
@@ -40,13 +45,6 @@ inline constexpr Parameter slope_deviation{
 
 namespace oren_nayar_detail {
 
-/// The smaller of a quotient and the largest finite number.
-template <class D>
-D saturated(const D& quotient) {
-  const D largest((std::numeric_limits<D>::max)());
-  return select(less(quotient, largest), quotient, largest);
-}
-
 /// variance / (variance + offset): how the authors let everything grow with roughness.
 template <class S>
 S growth(const S& sigma, double offset) {
@@ -63,21 +61,14 @@ D horizontal_dot(const Direction<D>& wi, const Direction<D>& wo) {
 /// max(0, cos dphi) sin(a) tan(b): both polar sines are in the dot product.
 template <class D>
 D same_side(const Direction<D>& wi, const Direction<D>& wo) {
-  return saturated(D(larger(D(0), horizontal_dot(wi, wo)) / larger(wi.z, wo.z)));
+  return saturated<D>(D(larger(D(0), horizontal_dot(wi, wo)) / larger(wi.z, wo.z)));
 }
 
-/// What the full form needs of a direction; the azimuth is a unit vector, or 0 at the pole.
+/// The polar angle of a direction.
 template <class D>
 struct Polar {
-  D sine, cosine, azimuth_x, azimuth_y;
+  D sine, cosine;
 };
-
-template <class D>
-Polar<D> polar(const Direction<D>& w) {
-  const D sine = polar_sine(w);
-  const D scale = select(less(D(0), sine), sine, D(1));
-  return {sine, w.z, w.x / scale, w.y / scale};
-}
 
 /// The full form's functions of the two directions; none depends on roughness or albedo.
 template <class D>
@@ -90,45 +81,74 @@ struct Geometry {
   D interreflection;
 };
 
-/// tan(b) (sin(a) - (2b/pi)^3) with y = 1 - 2b/pi: the difference is y (1 + B + B^2) - (1 - sin a),
-/// B = 2b/pi, and divided by cos(b) term by term it stays exact down to the smallest cosine.
+/// The cosine of the azimuth between the directions, 0 where one is at the pole.
 template <class D>
-D opposite_side(const Polar<D>& a, const Polar<D>& b, const D& b_turns) {
-  const D y_per_cosine = quarter_turns(b.cosine, b.sine) / b.cosine;
-  return b.sine * (y_per_cosine * (D(1) + b_turns + b_turns * b_turns) -
+D azimuth_cosine(const Direction<D>& wi, const Direction<D>& wo, const D& sine_i, const D& sine_o) {
+  const D scale_i = select(less(D(0), sine_i), sine_i, D(1));
+  const D scale_o = select(less(D(0), sine_o), sine_o, D(1));
+  return (wi.x / scale_i) * (wo.x / scale_o) + (wi.y / scale_i) * (wo.y / scale_o);
+}
+
+/// 1 - |cosine| of that azimuth = sin^2 / (1 + |cosine|), which does not cancel. The sine comes
+/// from the cross product of wi and wo -+ wi, the same as that of wi and wo: it keeps its digits
+/// where both graze the surface, when 1/cos(b) makes much of it.
+template <class D>
+D off_plane(const Direction<D>& wi, const Direction<D>& wo, const D& sines, const D& cosine) {
+  using std::abs;
+  const D side = select(less(cosine, D(0)), D(1), D(-1));
+  const D cross = wi.x * (wo.y + side * wi.y) - wi.y * (wo.x + side * wi.x);
+  const D sine = cross / select(less(D(0), sines), sines, D(1));
+  return sine * sine / (D(1) + abs(cosine));
+}
+
+/// tan(b) (sin(a) - B^3) for B = 2b/pi, y = 1 - B: the difference is y (1 + B + B^2) - (1 - sin a),
+/// and divided by cos(b) term by term it stays exact down to the smallest cosine.
+template <class D>
+D opposite_side(const Polar<D>& a, const Polar<D>& b, const D& b_turns, const D& y) {
+  return b.sine * ((y / b.cosine) * (D(1) + b_turns + b_turns * b_turns) -
                    a.cosine * (a.cosine / b.cosine) / (D(1) + a.sine));
 }
 
 template <class D>
 Geometry<D> geometry(const Direction<D>& wi, const Direction<D>& wo) {
-  using std::abs;
-  const auto i_is_lower = less(wi.z, wo.z);
-  const auto choose = [&](const D& if_i, const D& if_o) { return select(i_is_lower, if_i, if_o); };
-  const Polar<D> i = polar(wi);
-  const Polar<D> o = polar(wo);
-  const Polar<D> a{choose(i.sine, o.sine), choose(i.cosine, o.cosine), D(0), D(0)};
-  const Polar<D> b{choose(o.sine, i.sine), choose(o.cosine, i.cosine), D(0), D(0)};
-  const D a_turns = quarter_turns(a.sine, a.cosine);
+  const Polar<D> i{polar_sine(wi), wi.z};
+  const Polar<D> o{polar_sine(wo), wo.z};
+  const auto i_is_lower = less(i.cosine, o.cosine);
+  const Polar<D> a{select(i_is_lower, i.sine, o.sine), select(i_is_lower, i.cosine, o.cosine)};
+  const Polar<D> b{select(i_is_lower, o.sine, i.sine), select(i_is_lower, o.cosine, i.cosine)};
   const D b_turns = quarter_turns(b.sine, b.cosine);
-  const D cosine = i.azimuth_x * o.azimuth_x + i.azimuth_y * o.azimuth_y;
-  const D sine = i.azimuth_x * o.azimuth_y - i.azimuth_y * o.azimuth_x;
-  // 1 - |cos| = sin^2 / (1 + |cos|), which does not cancel.
-  const D off_plane = sine * sine / (D(1) + abs(cosine));
-  const D turns = a_turns * b_turns;
-  return {select(less(cosine, D(0)), D(cosine * opposite_side(a, b, b_turns)), same_side(wi, wo)),
-          saturated(D(off_plane * (turns * turns) * (a.sine + b.sine) / (a.cosine + b.cosine))),
-          D(1) - cosine * (b_turns * b_turns)};
+  const D y = quarter_turns(b.cosine, b.sine);
+  const D turns = quarter_turns(a.sine, a.cosine) * b_turns;
+
+  const D cosine = azimuth_cosine(wi, wo, i.sine, o.sine);
+  const D across = off_plane(wi, wo, D(i.sine * o.sine), cosine);
+  const auto opposite = less(cosine, D(0));
+  const D from_same = select(opposite, D(1) - cosine, across);  // 1 - cos(dphi)
+  return {select(opposite, D(cosine * opposite_side(a, b, b_turns, y)), same_side(wi, wo)),
+          saturated<D>(D(across * (turns * turns) * (a.sine + b.sine) / (a.cosine + b.cosine))),
+          y * (D(1) + b_turns) + from_same * (b_turns * b_turns)};
 }
 
 }  // namespace oren_nayar_detail
+
+/// What the summaries are written with.
+inline constexpr std::string_view oren_nayar_symbols =
+    "a >= b: the polar angles of wi and wo; dphi: the azimuth between them; "
+    "A = 1 - 0.5 sigma^2 / (sigma^2 + 0.33); B = 0.45 sigma^2 / (sigma^2 + 0.09)";
+inline constexpr std::string_view oren_nayar_full_symbols =
+    "a >= b: the polar angles of wi and wo; dphi: the azimuth between them; "
+    "C1 = 1 - 0.5 sigma^2 / (sigma^2 + 0.33); g = sigma^2 / (sigma^2 + 0.09); "
+    "C2 = 0.45 g (sin(a) - (cos(dphi) < 0 ? (2b/pi)^3 : 0)); C3 = 0.125 g (4ab/pi^2)^2; "
+    "interreflection: 0.17 rho_d^2 / pi sigma^2 / (sigma^2 + 0.13) (1 - cos(dphi) (2b/pi)^2)";
 
 struct OrenNayar {
   static constexpr TermDescription description{
       .name = "oren-nayar",
       .kind = TermKind::diffuse,
       .companion = "",
-      .summary = "rho_d / pi (A + B max(0, cos dphi) sin(a) tan(b)), a >= b",
-      .source = "Oren & Nayar, Generalization of Lambert's Reflectance Model, SIGGRAPH 1994"};
+      .summary = "rho_d / pi (A + B max(0, cos(dphi)) sin(a) tan(b))",
+      .source = "Oren & Nayar, Generalization of Lambert's Reflectance Model, SIGGRAPH 1994",
+      .symbols = oren_nayar_symbols};
   static constexpr std::array<Parameter, 1> amplitudes{diffuse_albedo};
   static constexpr std::array<Parameter, 1> shape{slope_deviation};
 
@@ -149,8 +169,11 @@ struct OrenNayarFull {
       .name = "oren-nayar-full",
       .kind = TermKind::diffuse,
       .companion = "",
-      .summary = "Oren and Nayar's model with all its terms: direct light and interreflection",
+      .summary =
+          "rho_d / pi (C1 + C2 cos(dphi) tan(b) + C3 (1 - |cos(dphi)|) tan((a+b)/2)) and the "
+          "interreflection of the facets, quadratic in rho_d",
       .source = "Oren & Nayar, Generalization of Lambert's Reflectance Model, SIGGRAPH 1994",
+      .symbols = oren_nayar_full_symbols,
       .coefficients = Coefficients::nonlinear};
   static constexpr std::array<Parameter, 1> amplitudes{diffuse_albedo};
   static constexpr std::array<Parameter, 1> shape{slope_deviation};

@@ -16,28 +16,18 @@
 #pragma once
 
 #include <cmath>
-#include <concepts>
-#include <limits>
 
 #include "brdf/mirror_lobe.h"
 #include "brdf/polar_angle.h"
+#include "brdf/saturated.h"
 #include "brdf/term.h"
 
 namespace gonio::brdf {
 
 namespace strauss_detail {
 
-/// The smaller of a quotient and the largest finite number; with derivatives the largest is smaller
-/// by a factor of 2^64, as they grow by up to 1/(1 - s).
-template <class S, class D>
-D saturated(const D& quotient) {
-  constexpr double room = std::same_as<S, D> ? 1 : 0x1p-64;
-  const D largest = D((std::numeric_limits<D>::max)()) * D(room);
-  return select(less(quotient, largest), quotient, largest);
-}
-
-/// The argument x of F and G with its complement, and both as multiples of the cosine, which one of
-/// them goes to 0 with.
+/// The argument x of F and G with its complement, and both as multiples of the cosine, with which
+/// one of them goes to 0.
 template <class D>
 struct Argument {
   D x;
@@ -100,15 +90,15 @@ constexpr Parameter share(std::string_view name, double search_lower, double sea
 struct StraussAngle {
   static constexpr std::string_view name = "strauss";
   static constexpr std::string_view summary =
-      "a metal or plastic of any smoothness; Fresnel and attenuation over the angle";
+      "(cos_i d Rd c + lobe R Cs) / (pi cos_i), for the angle x = theta / (pi/2): metals and "
+      "plastics, matt to mirror";
 
-  template <class S, class D>
+  template <class D>
   static strauss_detail::Argument<D> argument(const Direction<D>& w) {
-    using strauss_detail::saturated;
     const D sine = polar_sine(w);
     const D x = quarter_turns(sine, w.z);
     const D complement = quarter_turns(w.z, sine);
-    return {x, complement, saturated<S>(D(x / w.z)), complement / w.z};
+    return {x, complement, x / w.z, complement / w.z};
   }
 };
 
@@ -116,17 +106,22 @@ struct StraussAngle {
 struct StraussCosine {
   static constexpr std::string_view name = "strauss-listing";
   static constexpr std::string_view summary =
-      "strauss as a published shader computes it: Fresnel and attenuation over the cosine, which "
-      "turns the Fresnel effect round";
+      "strauss for the cosine x = cos(theta), as a published shader has it, which turns the "
+      "Fresnel effect round";
 
-  template <class S, class D>
+  template <class D>
   static strauss_detail::Argument<D> argument(const Direction<D>& w) {
-    using strauss_detail::saturated;
     const D sine = polar_sine(w);
     const D complement = sine * sine / (D(1) + w.z);
-    return {w.z, complement, D(1), saturated<S>(D(complement / w.z))};
+    return {w.z, complement, D(1), complement / w.z};
   }
 };
+
+/// What the summaries are written with.
+inline constexpr std::string_view strauss_symbols =
+    "d = 1 - m s; Rd = (1 - s^3)(1 - t); lobe = max(0, mirror.wo)^(3/(1-s)); r = s^3 (1 - t); "
+    "j = F(x_i) G(x_i) G(x_o); R = min(1, r + j (r + 0.1)); Cs = 1 + m (1 - F(x_i)) (c - 1); "
+    "F: Fresnel reflection, from 0 at x = 0 to 1 at x = 1; G: attenuation, from 1 to 0";
 
 template <class ArgumentOf>
 struct StraussTerm {
@@ -136,6 +131,7 @@ struct StraussTerm {
       .companion = "",
       .summary = ArgumentOf::summary,
       .source = "Strauss, A Realistic Lighting Model for Computer Animators, IEEE CG&A 10(6), 1990",
+      .symbols = strauss_symbols,
       .coefficients = Coefficients::affine,
       .reciprocal = false};
   static constexpr std::array<Parameter, 1> amplitudes{
@@ -171,8 +167,8 @@ struct StraussTerm {
     const auto& [s, m, t] = smt;
     const S one(D(1));
     const D per_pi = D(1) / pi<D>();
-    const Argument<D> in = ArgumentOf::template argument<S>(wi);
-    const Argument<D> out = ArgumentOf::template argument<S>(wo);
+    const Argument<D> in = ArgumentOf::argument(wi);
+    const Argument<D> out = ArgumentOf::argument(wo);
     const Fresnel<D> f = fresnel(in);
     const D j = f.per_x * in.x * attenuation(in) * attenuation(out);
 
@@ -181,12 +177,13 @@ struct StraussTerm {
     const S diffuse = (one - s) * (one + s + s * s) * opaque;  // Rd
     const S r = s * s * s * opaque;
     const S unbounded = r + S(j) * (r + S(D(0.1)));
-    const S reflected = select(less(unbounded, one), unbounded, one);  // R
+    const S reflected = select(less(one, unbounded), one, unbounded);  // R
     const S highlight = lobe(s, wi, wo) * reflected * S(per_pi);
 
-    const S tinted = highlight * m * S(f.complement_per_complement * in.complement_per_cosine);
+    const S tinted =
+        highlight * m * S(saturated<S>(D(f.complement_per_complement * in.complement_per_cosine)));
     const S white = highlight * (one - m) * S(saturated<S>(D(D(1) / wi.z))) +
-                    highlight * m * S(f.per_x * in.x_per_cosine);
+                    highlight * m * S(saturated<S>(D(f.per_x * in.x_per_cosine)));
     const auto above = above_horizon(wi, wo);
     return {select(above, S(dull * diffuse * S(per_pi) + tinted), S(D(0))),
             select(above, white, S(D(0)))};

@@ -45,7 +45,7 @@ struct TermDescription {
   std::string_view summary;
   std::string_view source;
   /// What the summary is written with, where that is more than common.
-  std::string_view symbols = "";
+  std::string_view symbols = {};
   /// True if turning the material about its normal changes the value: the term has a tangent,
   /// which may be given a free angle (free_frame.h). Its first two shape parameters are then those
   /// along x and along y.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/albedo_warning.h"
 #include "fit/scale.h"
 
 namespace gonio::fit {
@@ -152,6 +153,36 @@ void warn_of_undetermined(const FitResult& result, const Identifiability& identi
           : "measure other directions, or fix one with --fix"));
 }
 
+/// How far a rival's parameter is from the fitted one, for it to be another: in standard
+/// deviations, and relative to the values.
+constexpr double other_deviations = 3;
+constexpr double other_share = 1e-6;
+
+/// Two materials that look the same from these directions, each with small intervals of its own.
+void warn_of_rivals(const FitResult& result, std::vector<std::string>& warnings) {
+  for (const ParameterValues& rival : result.rivals) {
+    std::vector<std::size_t> others;
+    std::vector<std::string> values;
+    for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
+      const Unknown& unknown = result.unknowns[u];
+      if (!result.uncertainty.stddev[u]) continue;
+      const double here = result.values[unknown];
+      const double there = rival[unknown];
+      const double least = std::max(other_deviations * *result.uncertainty.stddev[u],
+                                    other_share * std::max(std::abs(here), std::abs(there)));
+      if (std::abs(here - there) <= least) continue;
+      others.push_back(u);
+      values.push_back(fmt::format("{} {:.4g}", unknown.name, there));
+    }
+    if (others.empty()) continue;
+    warnings.push_back(fmt::format(
+        "these data cannot tell {} apart: {} explain them as well as the values given, whose "
+        "intervals do not know of it; measure other channels or directions, or fix one with --fix",
+        fmt::join(names_of(others, result.unknowns, result.channels.size()), ", "),
+        fmt::join(values, ", ")));
+  }
+}
+
 void warn_of_bounds(const FitResult& result, const Box& box, const Identifiability& identifiability,
                     std::vector<std::string>& warnings) {
   for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
@@ -197,6 +228,22 @@ void warn_of_no_freedom(const FitResult& result, const Identifiability& identifi
                   result.used_values, identifiability.rank()));
 }
 
+/// Estimates that go together like this cannot be told apart.
+constexpr double inseparable = 0.95;
+
+/// "; the data can hardly tell it from c": what a weak shape goes together with.
+std::string companions_of(const FitResult& result, std::size_t weak) {
+  std::vector<std::size_t> companions;
+  for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
+    const auto& correlation = result.uncertainty.correlation[weak][u];
+    if (u != weak && correlation && std::abs(*correlation) > inseparable) companions.push_back(u);
+  }
+  if (companions.empty()) return "";
+  return fmt::format(
+      "; the data can hardly tell it from {}",
+      fmt::join(names_of(companions, result.unknowns, result.channels.size()), ", "));
+}
+
 void warn_of_weak_shapes(const FitResult& result, std::vector<std::string>& warnings) {
   for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
     const Unknown& unknown = result.unknowns[u];
@@ -206,13 +253,14 @@ void warn_of_weak_shapes(const FitResult& result, std::vector<std::string>& warn
     if (is_logarithmic(descriptor.scale)) {
       const double value = parameter_slope(descriptor.scale, result.values[unknown]);
       if (stddev <= 0.5 * value) continue;
-      warnings.push_back(
-          fmt::format("{} is hardly determined: its standard deviation is {:.0f} % of its value",
-                      unknown.name, 100 * stddev / std::max(value, 1e-300)));
+      warnings.push_back(fmt::format(
+          "{} is hardly determined: its standard deviation is {:.0f} % of its value{}",
+          unknown.name, 100 * stddev / std::max(value, 1e-300), companions_of(result, u)));
     } else if (stddev > 0.1 * (descriptor.upper - descriptor.lower)) {
       warnings.push_back(fmt::format(
-          "{} is hardly determined: its standard deviation is {:.2g} {}, of a range of {:.3g}{}",
-          unknown.name, stddev, descriptor.unit, descriptor.upper - descriptor.lower,
+          "{} is hardly determined: its standard deviation is {:.2g}{}, of a range of {:.3g}{}{}",
+          unknown.name, stddev, descriptor.unit == "1" ? "" : " " + std::string(descriptor.unit),
+          descriptor.upper - descriptor.lower, companions_of(result, u),
           descriptor.scale == brdf::Scale::periodic
               ? "; where alpha_x and alpha_y are alike the "
                 "tangent means nothing: try an isotropic model"
@@ -276,7 +324,8 @@ void warn_of_misfit(const FitResult& result, std::vector<std::string>& warnings)
 }  // namespace
 
 std::vector<std::string> diagnose(const FitResult& result, const Box& box,
-                                  const Identifiability& identifiability) {
+                                  const Identifiability& identifiability,
+                                  const brdf::Direction<double>& most_grazing_wi) {
   std::vector<std::string> warnings;
   if (!result.converged) {
     warnings.emplace_back("the solver stopped before it converged: the parameters may still move");
@@ -287,7 +336,11 @@ std::vector<std::string> diagnose(const FitResult& result, const Box& box,
   warn_of_insignificant_terms(result, identifiability, warnings);
   warn_of_lobes_between_samples(result, identifiability, warnings);
   warn_of_undetermined(result, identifiability, warnings);
+  warn_of_rivals(result, warnings);
   warn_of_albedo(result, identifiability, warnings);
+  if (const auto warning = albedo_warning(result, identifiability, most_grazing_wi)) {
+    warnings.push_back(*warning);
+  }
   warn_of_bounds(result, box, identifiability, warnings);
   warn_of_weak_shapes(result, warnings);
   warn_of_misfit(result, warnings);

@@ -110,15 +110,42 @@ struct Problem {
   const PassOptions& passes;
 };
 
+/// The shapes of minima differ by more.
+constexpr double same_minimum = 1e-3;
+/// Costs below this share of the data's are nothing but roundings.
+constexpr double negligible_cost = 1e-16;
+/// Costs that differ by less, in units of the residuals' variance, are the same at 95 %: half the
+/// quantile of chi-square with one degree of freedom.
+constexpr double same_cost = 1.92;
+
+/// The values of those solutions that are other minima than `best`, and as likely.
+std::vector<ParameterValues> rivals_of(const Solution& best, std::span<const Solution> solutions,
+                                       const WeightedSamples& samples, const brdf::Model& model) {
+  const double variance =
+      2 * best.cost / double(std::max<std::size_t>(samples.survey().used_values, 1));
+  const double data = norm_of_data(best.system, best.values.amplitudes);
+  const double most = best.cost + same_cost * variance + negligible_cost * data * data / 2;
+  std::vector<ParameterValues> rivals;
+  for (const Solution& other : solutions) {
+    if (other.cost > most) continue;
+    if (largest_change(model, other.values.shape, best.values.shape) < same_minimum) continue;
+    rivals.push_back(other.values);
+  }
+  return rivals;
+}
+
 Solution best_of(const WeightedSamples& samples, const Problem& problem, const ScaledLoss& loss,
                  std::span<const Start> starts) {
-  std::optional<Solution> best;
+  std::vector<Solution> solutions;
   for (const Start& start : starts) {
-    Solution solution = solve(samples, problem.model, problem.box, loss, start.values,
-                              final_precision, problem.passes);
-    solution.iterations += start.iterations;
-    if (!best || solution.cost < best->cost) best = std::move(solution);
+    solutions.push_back(solve(samples, problem.model, problem.box, loss, start.values,
+                              final_precision, problem.passes));
+    solutions.back().iterations += start.iterations;
   }
+  const auto best =
+      std::min_element(solutions.begin(), solutions.end(),
+                       [](const Solution& a, const Solution& b) { return a.cost < b.cost; });
+  best->rivals = rivals_of(*best, solutions, samples, problem.model.model());
   return std::move(*best);
 }
 
@@ -127,6 +154,7 @@ Solution solved_again(const WeightedSamples& samples, const Problem& problem,
   Solution solution = solve(samples, problem.model, problem.box, loss, before.values,
                             final_precision, problem.passes);
   solution.iterations += before.iterations;
+  solution.rivals = before.rivals;
   return solution;
 }
 
@@ -295,6 +323,7 @@ FitResult fit(const brdf::Model& model, const table::SampleTable& table, const O
                    .loss_scale = options.loss == Loss::none ? 0 : loss.scale,
                    .unknowns = unknowns,
                    .values = solution.values,
+                   .rivals = std::move(solution.rivals),
                    .uncertainty = std::move(uncertainty),
                    .cost = solution.cost,
                    .metric_error = assessment.metric_error,
@@ -315,7 +344,7 @@ FitResult fit(const brdf::Model& model, const table::SampleTable& table, const O
                    .passes = passes.count(),
                    .warnings = {}};
   add_criteria(assessment, identifiability, *samples, result);
-  result.warnings = diagnose(result, box, identifiability);
+  result.warnings = diagnose(result, box, identifiability, survey.most_grazing_wi);
   return result;
 }
 

@@ -52,6 +52,8 @@ struct FitResult {
   /// All the unknowns in a row; `uncertainty` is indexed like it.
   std::vector<Unknown> unknowns;
   ParameterValues values;
+  /// Other minima that were met on the way and that these data cannot tell from `values`.
+  std::vector<ParameterValues> rivals;
   Uncertainty uncertainty;
   /// Half the weighted sum of squared residuals under the metric, or of what the loss makes of
   /// them.

@@ -28,6 +28,8 @@ constexpr double hopeless_scan_ratio = 4;
 
 /// Minima whose shapes differ by less are one.
 constexpr double same_minimum = 2e-4;
+/// Costs below this share of the data's are all that start_precision makes of 0.
+constexpr double negligible_cost = 1e-9;
 
 /// A part of the table, and everything that is needed to solve the problem there.
 class Level {
@@ -81,9 +83,12 @@ class Level {
     });
     std::stable_sort(solutions.begin(), solutions.end(),
                      [](const Solution& a, const Solution& b) { return a.cost < b.cost; });
+    const Solution& best = solutions.front();
+    const double data = norm_of_data(best.system, best.values.amplitudes);
+    const double hopeless = hopeless_ratio * std::max(best.cost, negligible_cost * data * data / 2);
     std::vector<Start> kept;
     for (const Solution& solution : solutions) {
-      if (solution.cost > hopeless_ratio * solutions.front().cost) break;
+      if (solution.cost > hopeless) break;
       if (std::none_of(kept.begin(), kept.end(), [&](const Start& other) {
             return largest_change(model_.model(), solution.values.shape, other.values.shape) <
                    same_minimum;

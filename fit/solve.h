@@ -17,6 +17,8 @@ struct Solution {
   double cost = 0;  // half the sum of squares, or of what the loss makes of them
   bool converged = false;
   int iterations = 0;
+  /// Other minima that the data cannot tell from this one by their cost.
+  std::vector<ParameterValues> rivals = {};
 };
 
 /// How far the last step may be from the next one: of logarithms of roughnesses, of angles in

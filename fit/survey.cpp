@@ -26,6 +26,9 @@ Survey survey_of_rows(const table::SampleTable& table, const table::SampleFilter
   for (std::size_t i = first; i < last; ++i) {
     used[i - first] = filter(i);
     survey.used_samples += used[i - first];
+    if (used[i - first] != 0 && table.wi[i].z < survey.most_grazing_wi.z) {
+      survey.most_grazing_wi = table.wi[i];
+    }
   }
   for (const std::vector<double>& channel : table.values) {
     std::size_t measured = 0;
@@ -81,6 +84,9 @@ Survey survey_of(const table::SampleTable& table, const table::SampleFilter& fil
     survey.holes += part.holes;
     survey.largest = std::max(survey.largest, part.largest);
     survey.largest_weight = std::max(survey.largest_weight, part.largest_weight);
+    if (part.most_grazing_wi.z < survey.most_grazing_wi.z) {
+      survey.most_grazing_wi = part.most_grazing_wi;
+    }
   }
   if (survey.used_samples == 0) refuse_empty(table);
   if (survey.largest != 0 && (survey.largest < 1e-100 || survey.largest > 1e100)) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "brdf/direction.h"
 #include "table/sample_table.h"
 
 namespace gonio::fit {
@@ -19,6 +20,8 @@ struct Survey {
   double largest = 0;
   /// The largest weight of a used sample; 1 where the table carries none.
   double largest_weight = 0;
+  /// Of the used samples, the light that comes at the largest angle.
+  brdf::Direction<double> most_grazing_wi{0, 0, 1};
 };
 
 /// The same for any number of threads. Throws table::FileError if no sample is left, or if the

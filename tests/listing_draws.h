@@ -23,7 +23,9 @@ inline brdf::listings::Float3 in_float(const brdf::Direction<double>& w) {
   return {static_cast<float>(w.x), static_cast<float>(w.y), static_cast<float>(w.z)};
 }
 
-inline brdf::Direction<double> in_double(const brdf::listings::Float3& w) { return {w.x, w.y, w.z}; }
+inline brdf::Direction<double> in_double(const brdf::listings::Float3& w) {
+  return {w.x, w.y, w.z};
+}
 
 inline ListingDraw with_normal_z(const brdf::Direction<double>& wi,
                                  const brdf::Direction<double>& wo) {
@@ -39,11 +41,15 @@ class ListingDraws {
   }
 
   brdf::Direction<double> direction() {
-    return brdf::direction_from_radians(std::acos(uniform(lowest_cosine, 1)),
-                                        uniform(0, 2 * std::numbers::pi));
+    const double cosine = uniform(lowest_cosine, 1);
+    const double phi = uniform(0, 2 * std::numbers::pi);
+    return brdf::direction_from_radians(std::acos(cosine), phi);
   }
 
-  ListingDraw anywhere() { return with_normal_z(direction(), direction()); }
+  ListingDraw anywhere() {
+    const brdf::Direction<double> wi = direction();
+    return with_normal_z(wi, direction());
+  }
 
   /// Half vectors whose slopes are within three times these widths, evenly over the ellipse.
   ListingDraw within_lobe(double width_x, double width_y) {

@@ -1,5 +1,6 @@
 // Oren and Nayar's formulas as they are printed, through polar angles and azimuths, in as many
 // digits as the type has: an evaluation that shares nothing with brdf/oren_nayar.h but its input.
+// In float it is the plain form that brdf/oren_nayar.h avoids.
 //
 // The input's components are taken as they are, not renormalised. An angle from the normal knows
 // the distance from the horizon to the type's digits only: cosines of 1e-300 need 400 of them.
@@ -8,7 +9,7 @@
 #include <boost/math/constants/constants.hpp>
 
 #include "brdf/direction.h"
-#include "tests/ward_reference.h"
+#include "tests/reference.h"
 
 namespace gonio::tests {
 
@@ -46,9 +47,11 @@ ReferenceAngles<N> reference_angles(const brdf::Direction<D>& wi, const brdf::Di
 /// f_r of the simplified form for rho = 1, in 1/sr.
 template <class N>
 N reference_oren_nayar(const N& sigma, const ReferenceAngles<N>& angles) {
+  using std::sin;
+  using std::tan;
   const N s2 = sigma * sigma;
-  const N a = 1 - s2 / (s2 + N("0.33")) / 2;
-  const N b = N("0.45") * s2 / (s2 + N("0.09"));
+  const N a = 1 - s2 / (s2 + N(33) / 100) / 2;
+  const N b = N(45) / 100 * s2 / (s2 + N(9) / 100);
   const N lit = angles.cos_dphi > 0 ? angles.cos_dphi : N(0);
   return (a + b * lit * sin(angles.a) * tan(angles.b)) / boost::math::constants::pi<N>();
 }
@@ -62,17 +65,20 @@ struct FullOrenNayar {
 
 template <class N>
 FullOrenNayar<N> reference_full_oren_nayar(const N& sigma, const ReferenceAngles<N>& angles) {
-  const N pi = boost::math::constants::pi<N>();
+  using std::abs;
+  using std::sin;
+  using std::tan;
+  const N& pi = boost::math::constants::pi<N>();
   const auto& [a, b, d] = angles;
   const N s2 = sigma * sigma;
-  const N g = s2 / (s2 + N("0.09"));
+  const N g = s2 / (s2 + N(9) / 100);
   const N turns = 2 * b / pi;
   const N product = 4 * a * b / (pi * pi);
-  const N c1 = 1 - s2 / (s2 + N("0.33")) / 2;
-  const N c2 = N("0.45") * g * (d >= 0 ? N(sin(a)) : N(sin(a) - turns * turns * turns));
-  const N c3 = N("0.125") * g * product * product;
+  const N c1 = 1 - s2 / (s2 + N(33) / 100) / 2;
+  const N c2 = N(45) / 100 * g * (d >= 0 ? N(sin(a)) : N(sin(a) - turns * turns * turns));
+  const N c3 = N(125) / 1000 * g * product * product;
   const N direct = c1 + d * c2 * tan(b) + (1 - abs(d)) * c3 * tan(N((a + b) / 2));
-  const N interreflection = N("0.17") * s2 / (s2 + N("0.13")) * (1 - d * turns * turns);
+  const N interreflection = N(17) / 100 * s2 / (s2 + N(13) / 100) * (1 - d * turns * turns);
   return {direct / pi, interreflection / pi};
 }
 

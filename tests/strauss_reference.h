@@ -1,6 +1,7 @@
 // Strauss's formulas as they are printed, in as many digits as the type has: an evaluation that
-// shares nothing with brdf/strauss.h but its input. The mirror direction of vectors that are unit
-// to rounding only is that of the normalised vectors.
+// shares nothing with brdf/strauss.h but its input. In float it is the plain form that
+// brdf/strauss.h avoids. The mirror direction of vectors that are unit to rounding only is that of
+// the normalised vectors.
 #pragma once
 
 #include <boost/math/constants/constants.hpp>
@@ -12,7 +13,7 @@ namespace gonio::tests {
 
 template <class N>
 N reference_fresnel(const N& x) {
-  const N kf("1.12");
+  const N kf = N(112) / 100;
   const N at_0 = 1 / (kf * kf);
   const N at_1 = 1 / ((1 - kf) * (1 - kf));
   return (1 / ((x - kf) * (x - kf)) - at_0) / (at_1 - at_0);
@@ -20,7 +21,7 @@ N reference_fresnel(const N& x) {
 
 template <class N>
 N reference_attenuation(const N& x) {
-  const N ks("1.01");
+  const N ks = N(101) / 100;
   const N at_0 = 1 / (ks * ks);
   const N at_1 = 1 / ((1 - ks) * (1 - ks));
   return (at_1 - 1 / ((x - ks) * (x - ks))) / (at_1 - at_0);
@@ -54,7 +55,7 @@ StraussAngles<N> strauss_angles(bool listing, const brdf::Direction<D>& wi,
   const NormalisedDirection<N> o = normalised<N>(wo);
   const N mirror_cosine = i.z * o.z - i.x * o.x - i.y * o.y;
   if (listing) return {i.z, o.z, i.z, mirror_cosine};
-  const N quarter = boost::math::constants::half_pi<N>();
+  const N& quarter = boost::math::constants::half_pi<N>();
   return {polar_angles<N>(wi).theta / quarter, polar_angles<N>(wo).theta / quarter, i.z,
           mirror_cosine};
 }
@@ -67,6 +68,7 @@ struct StraussParameters {
 /// max(0, r.wo)^(3/(1-s)); at s = 1 its limit.
 template <class N>
 N reference_lobe(const N& s, const N& mirror_cosine) {
+  using std::pow;
   if (mirror_cosine <= 0) return 0;
   if (s == 1) return mirror_cosine < 1 ? 0 : 1;
   return pow(mirror_cosine, N(3 / (1 - s)));
@@ -80,7 +82,7 @@ N reference_strauss(const N& c, const StraussParameters<N>& p, const StraussAngl
   const N r = (1 - p.t) - rd;
   const N fresnel = reference_fresnel(w.x_i);
   const N j = fresnel * reference_attenuation(w.x_i) * reference_attenuation(w.x_o);
-  const N unbounded = r + j * (r + N("0.1"));
+  const N unbounded = r + j * (r + N(1) / 10);
   const N reflected = unbounded < 1 ? unbounded : N(1);
   const N colour = 1 + p.m * (1 - fresnel) * (c - 1);
   const N intensity =

@@ -99,8 +99,9 @@ void print_table(const material::Material& material, const std::vector<AlbedoRow
     text += "\n\nAt none of these angles more light leaves than arrives.\n";
   } else {
     text += fmt::format(
-        "\n\n* over 1: for light from {} deg the model reflects more than arrives. Do not render "
-        "or\n  simulate with it there; 'lambert+ward-gmd' stays below 1 if rho_d + rho_s does.\n",
+        "\n\n* over 1: for light from {} deg more leaves than arrives, which no material does. Do "
+        "not\n"
+        "  render or simulate with the model at such angles.\n",
         fmt::join(angles_over, ", "));
   }
   print(text);

@@ -17,10 +17,9 @@ inline OrenNayarFactors oren_nayar_factors(float sigma2) {
 
 /// Listing 5, for a diffuse colour of 1 and sigma in radians: pi n.l times f_r of `oren-nayar` for
 /// rho_d = 1, with
-/// - NaN where l or v is the normal: normalize(0). Beside it the azimuth carries the rounding of
-/// n.l
-///   over the sine of its angle;
-/// - both below the horizon or on it: NaN or the value of n.l = 0; v alone below: not 0.
+/// - NaN where l or v is the normal: normalize(0). Within 0.1 degrees of it the sine carries the
+///   rounding of its cosine, up to 1e-4 of the value at sigma = 0.7;
+/// - NaN where both are below the horizon or on it, and not 0 where v alone is.
 inline float oren_nayar(const Geometry& at, float sigma) {
   const auto [a, b] = oren_nayar_factors(sigma * sigma);
   const float ci = saturate(dot(at.n, at.l));

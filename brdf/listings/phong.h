@@ -37,8 +37,9 @@ inline float phong(const Geometry& at, const PhongMaterial& material, const Phon
          light.specular * minimum(lobe, material.gloss);
 }
 
-/// Listing 7: `lambert+blinn-phong`, but as above. In the plane of incidence its highlight at the
-/// same exponent is twice as wide as Phong's.
+/// Listing 7: `lambert+blinn-phong`, but as above. At the same exponent its highlight is 2 times as
+/// wide as Phong's in the plane of incidence and 2 cos(theta_i) times across it: there the narrower
+/// beyond 60 degrees, and the smaller in area beyond 75.5 degrees.
 inline float blinn_phong(const Geometry& at, const PhongMaterial& material,
                          const PhongLight& light) {
   const float ambient = light.ambient * material.c;
@@ -58,8 +59,7 @@ inline Lit lit(float n_dot_l, float n_dot_h, float exponent) {
   return {1, maximum(0, n_dot_l), n_dot_l < 0 || n_dot_h < 0 ? 0 : power(n_dot_h, exponent)};
 }
 
-/// Listing 8: listing 7 by lit(). The same but at n.l = 0, where lit() still has a highlight, and
-/// where n.h exceeds 1 by rounding.
+/// Listing 8: listing 7 by lit(). The same but at n.l = 0, where lit() still has a highlight.
 inline float blinn_phong_by_lit(const Geometry& at, const PhongMaterial& material,
                                 const PhongLight& light) {
   const Lit factors = lit(dot(at.n, at.l), dot(at.n, half_vector(at)), material.exponent);

@@ -1,10 +1,10 @@
 // What the published listings share: the vectors and functions of a shading language, in float.
 //
 // Convention: n, l, v are unit vectors of one common frame (any), away from the surface; l points
-// to the light, v to the viewer. Pi is written 3.14159, which as a float is 8.1e-7 of itself too small.
+// to the light, v to the viewer. Pi is written 3.14159: as a float 8.1e-7 of itself too small.
 //
-// maximum() and saturate() let a NaN pass. Direct3D 10 and later return the other operand, so that
-// a NaN may end there as a black or unlit pixel; other languages leave it undefined.
+// maximum(), minimum() and saturate() let the NaN of a listing pass. Direct3D 10 and later return
+// the other operand, so that it may end there as an unlit pixel; elsewhere it may be either.
 #pragma once
 
 #include <cmath>
@@ -37,7 +37,10 @@ inline Float3 reflect(const Float3& incident, const Float3& n) {
   return incident - 2 * dot(n, incident) * n;
 }
 
-inline float maximum(float a, float b) { return a < b ? b : a; }
+/// The larger, or `b` if that is NaN.
+inline float maximum(float a, float b) { return a > b ? a : b; }
+
+/// The smaller, or `a` if that is NaN.
 inline float minimum(float a, float b) { return b < a ? b : a; }
 
 /// Cut to 0..1.

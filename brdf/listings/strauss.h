@@ -58,7 +58,7 @@ inline float strauss(const Geometry& at, const StraussMaterial& material) {
   const float reflectivity = minimum(1, r + j * (r + 0.1F));
   const float cs = 1 + m * (1 - fresnel) * (material.c - 1);
   const float specular = reflectivity * cs * strauss_highlight(at, s);
-  return maximum(0, diffuse) + (specular < 0 ? 0 : specular);
+  return maximum(0, diffuse) + maximum(0, specular);
 }
 
 }  // namespace gonio::brdf::listings

@@ -51,8 +51,7 @@ inline std::array<float, 512> ward_exponent_texels() {
   return texels;
 }
 
-/// The exponent as the listing reads it, at u = (n.h + 1)/2, which leaves half of the texels
-/// unread.
+/// The exponent as the listing reads it, at u = (n.h + 1)/2: half of the texels are never read.
 inline float exponent_by_texture(std::span<const float> texels, float n_dot_h,
                                  Addressing addressing = Addressing::clamp) {
   return sample_linear(texels, (n_dot_h + 1) / 2, addressing);
@@ -75,18 +74,18 @@ inline float ward_isotropic_with(const Geometry& at, const WardMaterial& materia
 
 /// Listing 1. The specular term is `ward` (IsotropicWard<WardLobe>) with
 /// - alpha = sqrt(roughness^2 + 1e-5): 0.01 becomes 0.0105, 0.001 becomes 0.0033;
-/// - exponent_by_angle's steps in the exponent: without the bias they would be 0.12 at alpha =
-/// 0.001,
-///   which with the rounding of h makes up to 24 % of the peak for n = z, 38 % for any normal; the
-///   bias hides them by blurring the lobe;
-/// - NaN where n.h rounds to more than 1: up to 1 in 200 pixels of a highlight's centre;
+/// - exponent_by_angle's steps in the exponent: at alpha = 0.001 they would be 0.12, which with the
+///   rounding of h makes up to 24 % of the peak for n = z, 38 % for any normal, did the bias not
+///   blur the lobe;
+/// - NaN where n.h rounds to more than 1: 1 in 2,000 pixels within 3e-3 rad of the highlight's
+///   centre, and more the nearer;
 /// - NaN where one of l and v is below the horizon, a negative value where both are.
 inline float ward_isotropic(const Geometry& at, const WardMaterial& material) {
   return ward_isotropic_with(at, material, exponent_by_angle(dot(at.n, half_vector(at))));
 }
 
-/// Listing 1 with the texture. At alpha = 0.05 it loses 96 % of the highlight's centre, at 0.1 54
-/// %, at 1 still 0.8 %.
+/// Listing 1 with the texture. The highlight's centre loses 96 % at alpha = 0.05, 54 % at 0.1 and
+/// still 0.8 % at 1.
 inline float ward_isotropic_by_texture(const Geometry& at, const WardMaterial& material,
                                        std::span<const float> texels) {
   return ward_isotropic_with(at, material, exponent_by_texture(texels, dot(at.n, half_vector(at))));
