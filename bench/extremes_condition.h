@@ -17,7 +17,7 @@ namespace gonio::bench {
 /// that may need one beyond the project's figure; 0 for all others. By default no input does.
 template <class T>
 struct Condition {
-  static constexpr std::string_view derivation = "";
+  static constexpr std::string_view derivation{};
   template <std::size_t P>
   static double bound(const std::array<double, P>& /*shape*/, const brdf::Direction<double>& /*wi*/,
                       const brdf::Direction<double>& /*wo*/, double /*epsilon*/) {
@@ -42,7 +42,8 @@ inline double of_mirror_lobe(double exponent, const brdf::Direction<double>& wi,
 }
 
 inline constexpr std::string_view mirror_lobe_derivation =
-    "(1 + 2 epsilon / (r.wo))^n - 1 where r.wo < 1/2: r.wo is a sum of products that nearly cancel";
+    "where r.wo < 1/2, at most (1 + 2 epsilon / (r.wo))^n - 1: r.wo is a sum of products that "
+    "nearly cancel";
 
 }  // namespace condition_detail
 

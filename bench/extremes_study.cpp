@@ -190,13 +190,14 @@ using StudyOfRegion = RegionErrors (*)(const Region&, std::size_t, RandomSource)
 
 struct TermStudy {
   std::string name;
+  std::span<const brdf::Parameter> shape;
   std::string_view condition;
   StudyOfRegion study;
 };
 
 template <class... T>
 std::vector<TermStudy> term_studies(std::type_identity<std::tuple<T...>> /*terms*/) {
-  return {TermStudy{study_name<T>(), Condition<T>::derivation, study_region<T>}...};
+  return {TermStudy{study_name<T>(), T::shape, Condition<T>::derivation, study_region<T>}...};
 }
 
 Verdict verdict(double worst, double figure, double of_allowed) {
@@ -212,7 +213,8 @@ std::vector<ModelErrors> sweep_extremes(const SweepSettings& settings) {
   std::vector<ModelErrors> models;
   models.reserve(terms.size());
   for (const TermStudy& term : terms) {
-    models.push_back({term.name, term.condition, std::vector<RegionErrors>(region_count)});
+    models.push_back(
+        {term.name, term.shape, term.condition, std::vector<RegionErrors>(region_count)});
   }
   table::parallel_for(terms.size() * region_count, settings.threads, [&](std::size_t task) {
     const std::size_t t = task / region_count;

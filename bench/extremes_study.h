@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "brdf/parameter.h"
+
 namespace gonio::bench {
 
 /// The largest relative error of double where f_r cos_i exceeds `lit_share` of its peak.
@@ -52,6 +54,7 @@ struct RegionErrors {
 
 struct ModelErrors {
   std::string name;
+  std::span<const brdf::Parameter> shape;
   /// Of the bound by which the condition excuses more than the figure; empty if nothing does.
   std::string_view condition;
   std::vector<RegionErrors> regions;
@@ -59,7 +62,7 @@ struct ModelErrors {
 
 struct SweepSettings {
   /// Of each term in each region.
-  std::size_t samples = 600;
+  std::size_t samples = 1000;
   std::uint64_t seed = 1;
   /// 0: as many as the machine has. The results do not depend on it.
   int threads = 0;

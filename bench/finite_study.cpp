@@ -78,9 +78,10 @@ class DirectionSource {
 
   /// Any order of magnitude, either sign; denormal numbers and 0 among them.
   D tiny() {
-    const int exponent = std::numeric_limits<D>::min_exponent - std::numeric_limits<D>::digits;
+    constexpr int orders =
+        std::numeric_limits<D>::digits - std::numeric_limits<D>::min_exponent + 2;
     const D size = std::ldexp(static_cast<D>(random_.uniform(0.5, 1)),
-                              -int(random_.index(std::size_t(-exponent + 2))));
+                              -int(random_.index(std::size_t{orders})));
     return random_.coin() ? size : -size;
   }
 

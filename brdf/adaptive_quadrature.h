@@ -130,22 +130,22 @@ inline std::size_t worst_of(const std::vector<Interval>& intervals,
 template <class Function>
 Integrals integrate(Function function, std::size_t count, std::span<const double> breaks,
                     const QuadratureGoal& goal) {
-  using namespace quadrature_detail;
-  std::vector<Interval> intervals;
+  std::vector<quadrature_detail::Interval> intervals;
   for (std::size_t k = 1; k < breaks.size(); ++k) {
-    intervals.push_back(integrated(function, count, breaks[k - 1], breaks[k]));
+    intervals.push_back(quadrature_detail::integrated(function, count, breaks[k - 1], breaks[k]));
   }
   for (;;) {
-    Integrals sum = sum_of(intervals, count);
-    const std::size_t worst = worst_of(intervals, urgency(sum, goal));
+    Integrals sum = quadrature_detail::sum_of(intervals, count);
+    const std::size_t worst =
+        quadrature_detail::worst_of(intervals, quadrature_detail::urgency(sum, goal));
     if (worst == intervals.size() || intervals.size() >= goal.most_intervals) return sum;
     const double lower = intervals[worst].lower;
     const double upper = intervals[worst].upper;
     const double middle = (lower + upper) / 2;
     const std::vector<double> before = std::move(intervals[worst].values);
-    intervals[worst] = integrated(function, count, lower, middle);
-    intervals.push_back(integrated(function, count, middle, upper));
-    doubt_if_changed(before, intervals[worst], intervals.back());
+    intervals[worst] = quadrature_detail::integrated(function, count, lower, middle);
+    intervals.push_back(quadrature_detail::integrated(function, count, middle, upper));
+    quadrature_detail::doubt_if_changed(before, intervals[worst], intervals.back());
   }
 }
 

@@ -28,7 +28,9 @@ void coefficients_for(const double* amplitudes, double* coefficients) {
   std::array<double, T::amplitudes.size()> given;
   std::copy_n(amplitudes, given.size(), given.begin());
   const auto result = coefficients_of<T, double>(given);
-  std::copy(result.begin(), result.end(), coefficients);
+  // The square of a huge albedo would be infinite, and times a basis function of 0 no number.
+  std::transform(result.begin(), result.end(), coefficients,
+                 [](double c) { return std::min(c, std::numeric_limits<double>::max()); });
 }
 
 template <std::size_t... I>

@@ -90,15 +90,21 @@ D azimuth_cosine(const Direction<D>& wi, const Direction<D>& wo, const D& sine_i
 }
 
 /// 1 - |cosine| of that azimuth = sin^2 / (1 + |cosine|), which does not cancel. The sine comes
-/// from the cross product of wi and wo -+ wi, the same as that of wi and wo: it keeps its digits
-/// where both graze the surface, when 1/cos(b) makes much of it.
+/// from the cross product of u and v -+ u, the same as that of u and v: it keeps its digits where
+/// both graze the surface, when 1/cos(b) makes much of it. u is the one nearer to the pole, so that
+/// the rounding stays within the product of their sines.
 template <class D>
-D off_plane(const Direction<D>& wi, const Direction<D>& wo, const D& sines, const D& cosine) {
+D off_plane(const Direction<D>& u, const Direction<D>& v, const D& sines, const D& cosine) {
   using std::abs;
   const D side = select(less(cosine, D(0)), D(1), D(-1));
-  const D cross = wi.x * (wo.y + side * wi.y) - wi.y * (wo.x + side * wi.x);
+  const D cross = u.x * (v.y + side * u.y) - u.y * (v.x + side * u.x);
   const D sine = cross / select(less(D(0), sines), sines, D(1));
   return sine * sine / (D(1) + abs(cosine));
+}
+
+template <class M, class D>
+Direction<D> select_direction(const M& mask, const Direction<D>& a, const Direction<D>& b) {
+  return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
 }
 
 /// tan(b) (sin(a) - B^3) for B = 2b/pi, y = 1 - B: the difference is y (1 + B + B^2) - (1 - sin a),
@@ -121,7 +127,9 @@ Geometry<D> geometry(const Direction<D>& wi, const Direction<D>& wo) {
   const D turns = quarter_turns(a.sine, a.cosine) * b_turns;
 
   const D cosine = azimuth_cosine(wi, wo, i.sine, o.sine);
-  const D across = off_plane(wi, wo, D(i.sine * o.sine), cosine);
+  const auto i_is_nearer = less(i.sine, o.sine);
+  const D across = off_plane(select_direction(i_is_nearer, wi, wo),
+                             select_direction(i_is_nearer, wo, wi), D(i.sine * o.sine), cosine);
   const auto opposite = less(cosine, D(0));
   const D from_same = select(opposite, D(1) - cosine, across);  // 1 - cos(dphi)
   return {select(opposite, D(cosine * opposite_side(a, b, b_turns, y)), same_side(wi, wo)),

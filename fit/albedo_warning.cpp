@@ -82,8 +82,7 @@ std::optional<std::string> albedo_warning(const FitResult& result,
   if (largest.value <= 1) return std::nullopt;
   return fmt::format(
       "the albedo of channel {} is {:.3g} for light from {:.4g} deg, an angle that the samples "
-      "reach: "
-      "more leaves than arrives, which no material does; 'gonio albedo' shows at which angles",
+      "reach: the model reflects more light than arrives; 'gonio albedo' shows at which angles",
       result.channels[largest.channel], largest.value, largest.theta_i / radians_per_degree);
 }
 

@@ -272,6 +272,10 @@ Solution solve(const WeightedSamples& samples, const BatchModel& model, const Bo
   bool settled = false;
   VariableState state;
   Moved moved;
+  // A start from a coarser solution stands at the bounds that it ended at.
+  evaluation.move_to(solution.values);
+  solution.values = evaluation.values();
+  variables.update(box, evaluation.system(), solution.values);
   for (std::size_t round = 0; round < most_rounds && !settled; ++round) {
     state = variables.moving(solution.values);
     moved = move_variables(state, box, precision, evaluation, solution.values);

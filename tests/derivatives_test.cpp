@@ -128,9 +128,12 @@ struct ForgottenDerivative : brdf::AnisotropicWard<brdf::WardGmdLobe> {
   template <class S, class D>
   static std::array<S, 1> basis(const std::array<S, 2>& alpha, const brdf::Direction<D>& wi,
                                 const brdf::Direction<D>& wo) {
-    std::array<S, 2> given = alpha;
-    if constexpr (!std::same_as<S, D>) given[1].v.setZero();
-    return brdf::AnisotropicWard<brdf::WardGmdLobe>::basis<S, D>(given, wi, wo);
+    using Ward = brdf::AnisotropicWard<brdf::WardGmdLobe>;
+    if constexpr (std::same_as<S, D>) {
+      return Ward::basis<S, D>(alpha, wi, wo);
+    } else {
+      return Ward::basis<S, D>({alpha[0], S(alpha[1].a)}, wi, wo);
+    }
   }
 };
 

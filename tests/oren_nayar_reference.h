@@ -7,6 +7,7 @@
 #pragma once
 
 #include <boost/math/constants/constants.hpp>
+#include <cmath>
 
 #include "brdf/direction.h"
 #include "tests/reference.h"
@@ -16,6 +17,15 @@ namespace gonio::tests {
 using ManyDigits = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<400>,
                                                  boost::multiprecision::et_off>;
 
+/// The same number in the digits of N. Not by way of Digits: GCC 12 takes the widening of
+/// Boost 1.74 for a read past the end.
+template <class N, class D>
+N exact_in(D value) {
+  int exponent = 0;
+  const D mantissa = std::frexp(value, &exponent);
+  return N(ldexp(N(mantissa), exponent));
+}
+
 template <class N>
 struct PolarAngles {
   N theta, phi;
@@ -23,9 +33,9 @@ struct PolarAngles {
 
 template <class N, class D>
 PolarAngles<N> polar_angles(const brdf::Direction<D>& w) {
-  const N x(exact(w.x));
-  const N y(exact(w.y));
-  const N z(exact(w.z));
+  const N x = exact_in<N>(w.x);
+  const N y = exact_in<N>(w.y);
+  const N z = exact_in<N>(w.z);
   return {atan2(sqrt(x * x + y * y), z), x == 0 && y == 0 ? N(0) : N(atan2(y, x))};
 }
 

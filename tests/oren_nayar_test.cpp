@@ -38,10 +38,10 @@ D drawn_sigma(DirectionPairs<D>& draws) {
 /// that are clamped at 0 are right.
 template <class D, class N>
 double error(D value, const N& truth, double least) {
-  const N largest(exact(std::numeric_limits<D>::max()));
+  const N largest = exact_in<N>(std::numeric_limits<D>::max());
   const N expected = truth < 0 ? N(0) : truth < largest ? truth : largest;
   const N scale = expected < least ? N(least) : expected;
-  return N(abs(N(exact(value)) - expected) / scale).template convert_to<double>();
+  return N(abs(exact_in<N>(value) - expected) / scale).template convert_to<double>();
 }
 
 struct Errors {
@@ -51,7 +51,7 @@ struct Errors {
 
 template <class D, class N>
 Errors errors(const D& sigma, const DirectionPair<D>& pair) {
-  const N exact_sigma(exact(sigma));
+  const N exact_sigma = exact_in<N>(sigma);
   const auto angles = reference_angles<N>(pair.wi, pair.wo);
   const auto truth = reference_full_oren_nayar(exact_sigma, angles);
   const auto full = OrenNayarFull::basis<D, D>({sigma}, pair.wi, pair.wo);
@@ -152,7 +152,7 @@ TEST(OrenNayarTest, IsReciprocal) {
               (OrenNayar::basis<double, double>({sigma}, wo, wi)));
     const auto forth = OrenNayarFull::basis<double, double>({sigma}, wi, wo);
     const auto back = OrenNayarFull::basis<double, double>({sigma}, wo, wi);
-    // The cross product is anchored at wi.
+    // Of two directions at the same angle either may be taken as the one nearer to the pole.
     constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
     EXPECT_NEAR(forth[0], back[0], rounding * std::max(forth[0], least_c1));
     EXPECT_NEAR(forth[1], back[1], rounding * forth[1]);

@@ -40,9 +40,9 @@ struct NormalisedDirection {
 
 template <class N, class D>
 NormalisedDirection<N> normalised(const brdf::Direction<D>& w) {
-  const N x(exact(w.x));
-  const N y(exact(w.y));
-  const N z(exact(w.z));
+  const N x = exact_in<N>(w.x);
+  const N y = exact_in<N>(w.y);
+  const N z = exact_in<N>(w.z);
   const N length = sqrt(x * x + y * y + z * z);
   return {x / length, y / length, z / length};
 }

@@ -49,16 +49,16 @@ Shape<D> drawn_shape(DirectionPairs<D>& draws) {
 template <class T>
 constexpr bool is_listing = std::is_same_v<T, StraussListing>;
 
-/// f_r for the colour c, added in 50 digits so that the sum adds no rounding of its own.
-template <class T, class D>
-Digits value_of(double c, const Shape<D>& shape, const DirectionPair<D>& pair) {
+/// f_r for the colour c, added in many digits so that the sum adds no rounding of its own.
+template <class T, class N = Digits, class D>
+N value_of(double c, const Shape<D>& shape, const DirectionPair<D>& pair) {
   const auto basis = T::template basis<D, D>(shape, pair.wi, pair.wo);
-  return c * exact(basis[0]) + exact(basis[1]);
+  return c * exact_in<N>(basis[0]) + exact_in<N>(basis[1]);
 }
 
 template <class N, class D>
 StraussParameters<N> parameters(const Shape<D>& shape) {
-  return {N(exact(shape[0])), N(exact(shape[1])), N(exact(shape[2]))};
+  return {exact_in<N>(shape[0]), exact_in<N>(shape[1]), exact_in<N>(shape[2])};
 }
 
 template <class T, class N, class D>
@@ -164,14 +164,14 @@ TYPED_TEST(StraussTest, ThePrintedFormulaLosesDigitsInFloat) {
 
 // Down to the smallest normal cosine: beyond it 1/cos saturates.
 TYPED_TEST(StraussTest, IsRightOrSaturatedAtTheSmallestCosines) {
-  const ManyDigits largest(exact(std::numeric_limits<double>::max()));
+  const auto largest = exact_in<ManyDigits>(std::numeric_limits<double>::max());
   DirectionPairs<double> draws(300, 1e-300);
   for (int i = 0; i < 100; ++i) {
     const auto pair = draws.next();
     const Shape<double> shape{draws.uniform(0, 0.9), draws.uniform(0, 1), draws.uniform(0, 1)};
     const auto truth = truth_of<TypeParam, ManyDigits>(0.5, shape, pair);
     const ManyDigits expected = truth < largest ? truth : largest;
-    const ManyDigits value(value_of<TypeParam>(0.5, shape, pair));
+    const auto value = value_of<TypeParam, ManyDigits>(0.5, shape, pair);
     EXPECT_LE(abs(ManyDigits(value - expected)), 1e-11 * expected)
         << "cosines " << pair.wi.z << ", " << pair.wo.z;
   }

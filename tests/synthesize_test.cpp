@@ -266,11 +266,19 @@ std::filesystem::path synthetic_folder() {
   return std::filesystem::path(GONIO_SOURCE_DIR) / "data" / "synthetic";
 }
 
-std::vector<std::filesystem::path> committed_recipes() {
+/// Those of a folder, without its subfolders.
+std::vector<std::filesystem::path> recipes_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> recipes;
-  for (const auto& entry : std::filesystem::directory_iterator(synthetic_folder())) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.path().extension() == ".json") recipes.push_back(entry.path());
   }
+  return recipes;
+}
+
+std::vector<std::filesystem::path> committed_recipes() {
+  std::vector<std::filesystem::path> recipes = recipes_in(synthetic_folder());
+  const auto strauss = recipes_in(synthetic_folder() / "strauss");
+  recipes.insert(recipes.end(), strauss.begin(), strauss.end());
   return recipes;
 }
 
@@ -295,7 +303,28 @@ TEST(SyntheticData, HoldsTheTenMaterialsOfWardsTable) {
     EXPECT_TRUE(r.sigma_columns);
     EXPECT_TRUE(seeds.insert(r.noise.seed).second) << "shares its noise with another";
   }
-  EXPECT_EQ(committed_recipes().size(), tests::ward_materials.size());
+  EXPECT_EQ(recipes_in(synthetic_folder()).size(), tests::ward_materials.size());
+}
+
+TEST(SyntheticData, HoldsTheCornersOfStrausssModelAndSomeBetween) {
+  const auto recipes = recipes_in(synthetic_folder() / "strauss");
+  EXPECT_EQ(recipes.size(), 8u);
+  std::set<std::uint64_t> seeds;
+  std::set<std::pair<bool, bool>> corners;  // smooth or rough, metal or not
+  for (const auto& path : recipes) {
+    SCOPED_TRACE(path.filename());
+    const Recipe r = read_recipe(path.string());
+    EXPECT_EQ(r.model, "strauss");
+    EXPECT_EQ(r.noise.relative, 0.02);
+    EXPECT_EQ(r.noise.floor, 0.001);
+    EXPECT_TRUE(r.sigma_columns);
+    EXPECT_TRUE(seeds.insert(r.noise.seed).second) << "shares its noise with another";
+    const double s = r.parameters.at("s").front();
+    const double m = r.parameters.at("m").front();
+    const bool is_corner = (s <= 0.3 || s >= 0.9) && (m <= 0.1 || m >= 0.9);
+    if (is_corner) corners.emplace(s >= 0.9, m >= 0.9);
+  }
+  EXPECT_EQ(corners.size(), 4u);
 }
 
 TEST(SyntheticData, EveryTableIsWhatItsRecipeGives) {
@@ -308,11 +337,13 @@ TEST(SyntheticData, EveryTableIsWhatItsRecipeGives) {
     EXPECT_EQ(committed.channels, made.channels);
     ASSERT_EQ(committed.angle_text, made.angle_text);
     ASSERT_TRUE(committed.has_sigma());
-    for (std::size_t i = 0; i < made.size(); ++i) {
-      // libm's log, cos, sin and exp may differ in their last bit from machine to machine.
-      ASSERT_NEAR(committed.values[0][i], made.values[0][i],
-                  1e-12 * made.sigma[0][i] + 1e-12 * made.values[0][i]);
-      ASSERT_NEAR(committed.sigma[0][i], made.sigma[0][i], 1e-12 * made.sigma[0][i]);
+    for (std::size_t c = 0; c < made.channels.size(); ++c) {
+      for (std::size_t i = 0; i < made.size(); ++i) {
+        // libm's log, cos, sin and exp may differ in their last bit from machine to machine.
+        ASSERT_NEAR(committed.values[c][i], made.values[c][i],
+                    1e-12 * made.sigma[c][i] + 1e-12 * made.values[c][i]);
+        ASSERT_NEAR(committed.sigma[c][i], made.sigma[c][i], 1e-12 * made.sigma[c][i]);
+      }
     }
     EXPECT_LE(std::filesystem::file_size(path), 120000U) << "small enough to keep beside";
   }
