@@ -12,6 +12,8 @@
 #include <exception>
 #include <filesystem>
 #include <numbers>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 

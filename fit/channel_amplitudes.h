@@ -20,19 +20,11 @@ struct FreeAmplitudes {
   Eigen::VectorXd lower, upper;
 };
 
-/// The coefficients near given amplitudes, to first order in the free ones:
-/// offset + slope * free.
-struct LinearCoefficients {
-  LinearCoefficients(const BatchModel& model, const FreeAmplitudes& amplitudes,
-                     const Eigen::VectorXd& free);
-
-  Eigen::VectorXd offset;
-  Eigen::MatrixXd slope;  // [basis, free]
-};
-
-/// The free amplitudes that minimise |basis * coefficients - values|^2 within the box. Exact where
-/// the coefficients are affine; else Gauss and Newton's iterations, down to rounding, that begin
-/// with the amplitudes nearest to 0.
+/// The free amplitudes that minimise |basis * coefficients - values|^2 within the box; those
+/// without influence are as near to 0 as they may be. Exact where the coefficients are affine. Else
+/// the better end, to rounding, of Gauss and Newton's iterations from the least amplitudes and from
+/// the largest: from one side alone they may end in a minimum that is none - Ashikhmin-Shirley's Rs
+/// = 1 hides what another Rd would gain - or in the lesser one of two of Oren-Nayar's.
 Eigen::VectorXd solve_amplitudes(const BatchModel& model, const FreeAmplitudes& amplitudes,
                                  const Eigen::MatrixXd& basis, const Eigen::VectorXd& values);
 

@@ -223,7 +223,7 @@ TEST_P(CuretMaterials, AreDescribedByOrenNayarAtLeastAsWellAsByLambert) {
   GONIO_REAL_DATA_OR_SKIP(directions, "curet/table.txt");
   const auto tables = table::read_curet({measurements, directions});
   const auto materials = bench::study_roughness(tables, GetParam(), 90, 0);
-  for (const std::size_t model : {1, 2}) {  // both contain lambert
+  for (const std::size_t model : std::array<std::size_t, 2>{1, 2}) {  // both contain lambert
     const bench::Tally tally = bench::tally(materials, model, 0);
     EXPECT_EQ(tally.better + tally.equal + tally.worse, material_count);
     EXPECT_EQ(tally.worse, 0u) << bench::rough_models[model];

@@ -112,7 +112,25 @@ TEST(ModelTest, EveryListedNameIsAModelOfThatName) {
     EXPECT_EQ(Model(name).name(), name);
     EXPECT_TRUE(seen.insert(name).second) << name << " is listed twice";
   }
-  EXPECT_EQ(seen.size(), all_terms().size());
+  // A specular term and the whole model of its name are one in this list.
+  std::set<std::string_view> names;
+  for (const TermEntry& term : all_terms()) names.insert(term.description.name);
+  EXPECT_EQ(seen.size(), names.size());
+}
+
+TEST(ModelTest, AWholeModelStandsAloneAndItsSpecularPartInASum) {
+  const Model whole("ashikhmin-shirley");
+  ASSERT_EQ(whole.terms().size(), 1U);
+  EXPECT_EQ(whole.terms()[0]->description.kind, TermKind::whole);
+  const Model hybrid("oren-nayar+ashikhmin-shirley");
+  ASSERT_EQ(hybrid.terms().size(), 2U);
+  EXPECT_EQ(hybrid.terms()[1]->description.kind, TermKind::specular);
+  EXPECT_THAT(refusal([] { Model("lambert+strauss"); }),
+              HasSubstr("'strauss' is a whole model and takes no other term"));
+  EXPECT_THAT(refusal([] { Model("lambert+oren-nayar"); }),
+              HasSubstr("the first term has to be diffuse and every further one specular"));
+  EXPECT_THAT(refusal([] { Model("lambert+blin-phong"); }),
+              HasSubstr("did you mean 'blinn-phong'?"));
 }
 
 TEST(ModelTest, ATermsIndexTellsItsPlaceAmongTheEvaluatedOnes) {

@@ -1,6 +1,7 @@
 // No NaN, no infinity, no negative value: the Ward family where numbers run out of range.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -114,9 +115,15 @@ TEST(ModelExtremes, EveryModelSaturatesInsteadOfOverflowing) {
   for (const std::string& name : brdf::model_names()) {
     SCOPED_TRACE(name);
     const brdf::Model model(name);
-    const std::vector<double> amplitudes(model.amplitudes().size(), 1e300);
-    for (const double bound : {1e-4, 10.0}) {
-      const std::vector<double> shape(model.shape().size(), bound);
+    std::vector<double> amplitudes;
+    for (const auto& p : model.amplitudes()) {
+      amplitudes.push_back(std::min(1e300, p.descriptor.upper));
+    }
+    for (const bool upper : {false, true}) {
+      std::vector<double> shape;
+      for (const auto& p : model.shape()) {
+        shape.push_back(upper ? p.descriptor.upper : p.descriptor.lower);
+      }
       for (const auto& wi : directions) {
         for (const auto& wo : directions) {
           const double value = model.evaluate(amplitudes, shape, wi, wo);

@@ -85,28 +85,19 @@ std::string model_row(const std::string& name) {
 
 void print_list() {
   std::string text = "Terms, with unit amplitude and in 1/sr\n";
-  std::vector<std::string_view> symbols;
-  for (const brdf::TermEntry& term : brdf::all_terms()) {
-    text += term_row(term);
-    const std::string_view of_term = term.description.symbols;
-    if (of_term.empty() || std::find(symbols.begin(), symbols.end(), of_term) != symbols.end()) {
-      continue;
-    }
-    symbols.push_back(of_term);
-  }
-  for (const std::string_view line : symbols) text += fmt::format("  {}\n", wrapped(line, 2));
+  for (const brdf::TermEntry& term : brdf::all_terms()) text += term_row(term);
   text += "\nModels and their parameters\n";
   for (const std::string& name : brdf::model_names()) text += model_row(name);
   text +=
       "\nA model is diffuse, specular, diffuse+specular or diffuse+specular+specular, or a whole "
-      "one "
-      "that\n"
-      "takes no other term. A specular term alone brings its author's diffuse term, or is the "
-      "whole "
-      "model of\n"
-      "that name; a second one has parameters that end in _2. With --free-frame every anisotropic "
-      "term has\n"
-      "the tangent's angle psi besides. 'gonio models MODEL' explains the parameters.\n";
+      "one\n"
+      "that takes no other term. A specular term alone brings its author's diffuse term, or is "
+      "the\n"
+      "whole model of that name; a second one has parameters that end in _2. With --free-frame "
+      "every\n"
+      "anisotropic term has the tangent's angle psi besides. 'gonio models MODEL' explains "
+      "symbols\n"
+      "and parameters.\n";
   print(text);
 }
 
