@@ -71,13 +71,22 @@ class AzimuthOfHalfVectors {
       t = end_ * (1 - rest);
       dt_dx = end_ * root * std::numbers::sqrt2;
     }
+    Point point = at_slope(t, rest);
+    point.measure *= dt_dx;
+    return point;
+  }
+
+  double end() const { return end_; }
+
+  /// The same at the slope t, rest = 1 - t / end(); the measure is by t.
+  Point at_slope(double t, double rest) const {
     const double hh = 1 + t * t;
     const double h_wi = wi_.z + t * s_;
     const double scale = 2 * h_wi / hh;
     const double cosine = wi_.z * end_ * rest * (t + 1 / end_) / hh;
     const Direction<double> wo{scale * t * cos_psi_ - wi_.x, scale * t * sin_psi_ - wi_.y, cosine};
     // dwo = 4 (h.wi) dh for unit h, and dh = t dt dpsi / (1 + t^2)^(3/2).
-    return {wo, cosine * 4 * h_wi / (hh * hh) * t * dt_dx};
+    return {wo, cosine * 4 * h_wi / (hh * hh) * t};
   }
 
  private:
@@ -177,6 +186,29 @@ Albedo basis_albedo(const Model& model, std::span<const double> shape, double th
     result.errors.push_back(saturated(sides * (sum.errors[b] + sum.values[count + b])));
   }
   return result;
+}
+
+std::vector<double> rough_basis_albedo(const Model& model, std::span<const double> shape,
+                                       double theta_i, double phi_i) {
+  check(theta_i, phi_i, albedo_tolerance);
+  constexpr double steps_per_decade = 6;
+  constexpr int azimuths = 16;
+  constexpr double least_slope = 1e-5;
+  const Direction<double> wi = direction_from_radians(theta_i, phi_i);
+  const double ratio = std::pow(10, 1 / steps_per_decade);
+  std::vector<double> basis(model.basis_size());
+  std::vector<double> sums(model.basis_size());
+  for (int k = 0; k < azimuths; ++k) {
+    const AzimuthOfHalfVectors azimuth(wi, phi_i + 2 * std::numbers::pi * (k + 0.5) / azimuths, 1);
+    for (double t = least_slope; t < azimuth.end(); t *= ratio) {
+      const AzimuthOfHalfVectors::Point point = azimuth.at_slope(t, 1 - t / azimuth.end());
+      model.basis(shape, wi, point.wo, basis);
+      for (std::size_t b = 0; b < basis.size(); ++b) sums[b] += basis[b] * point.measure * t;
+    }
+  }
+  // dpsi, and dt = t ln(ratio).
+  for (double& sum : sums) sum = saturated(sum * 2 * std::numbers::pi / azimuths * std::log(ratio));
+  return sums;
 }
 
 Albedo albedo(const BoundModel& model, double theta_i, double phi_i, double tolerance) {

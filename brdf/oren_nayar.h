@@ -39,7 +39,7 @@ inline constexpr Parameter slope_deviation{
     .upper = std::numbers::pi / 2,
     .search_lower = 0,
     .search_upper = 1.2,
-    .scale = Scale::linear,
+    .scale = Scale::quadratic,
     .meaning = "standard deviation of the slope angle of the facets; 0 is Lambert's reflector",
     .source = "Oren & Nayar 1994"};
 

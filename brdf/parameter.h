@@ -6,9 +6,10 @@
 namespace gonio::brdf {
 
 /// How a search walks along a parameter: `logarithmic` for scales such as a roughness,
-/// `logarithmic_from_one` (by ln(1 + p)) for exponents, which may be 0, and `periodic` for an angle
-/// whose bounds are one period apart, so that both ends say the same.
-enum class Scale { linear, logarithmic, logarithmic_from_one, periodic };
+/// `logarithmic_from_one` (by ln(1 + p)) for exponents, which may be 0, `quadratic` where only the
+/// square of the parameter matters, so that nothing changes near 0 to first order, and `periodic`
+/// for an angle whose bounds are one period apart, so that both ends say the same.
+enum class Scale { linear, logarithmic, logarithmic_from_one, quadratic, periodic };
 
 struct Parameter {
   std::string_view name;

@@ -14,8 +14,10 @@ namespace gonio::fit {
 namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
-/// One angle costs about half a millisecond.
 constexpr double tolerance = 1e-2;
+/// The rough albedo from which on the exact one, which costs about half a millisecond, is looked
+/// at.
+constexpr double worth_a_look = 0.8;
 
 struct LargestAlbedo {
   double value = 1;
@@ -46,22 +48,36 @@ std::vector<std::size_t> determined_channels(const FitResult& result,
   return channels;
 }
 
+/// What the coefficients of a channel make of the values of the basis functions.
+double combined(const FitResult& result, std::size_t channel, std::span<const double> basis) {
+  const auto amplitudes = result.values.amplitudes.col(Eigen::Index(channel));
+  std::vector<double> coefficients(result.model.basis_size());
+  result.model.coefficients({amplitudes.data(), std::size_t(amplitudes.size())}, coefficients);
+  double sum = 0;
+  for (std::size_t b = 0; b < basis.size(); ++b) sum += coefficients[b] * basis[b];
+  return sum;
+}
+
+/// Models whose albedo exceeds 1 anywhere come near it at the most grazing angle.
+bool is_worth_a_look(const FitResult& result, std::span<const std::size_t> channels, double theta_i,
+                     double phi_i) {
+  const std::vector<double> basis =
+      brdf::rough_basis_albedo(result.model, result.values.shape, theta_i, phi_i);
+  return std::any_of(channels.begin(), channels.end(), [&](std::size_t channel) {
+    return combined(result, channel, basis) > worth_a_look;
+  });
+}
+
 /// Replaces `largest` if an albedo of the given channels is larger for certain.
 void look_at(const FitResult& result, std::span<const std::size_t> channels, double theta_i,
              double phi_i, LargestAlbedo& largest) {
   const brdf::Albedo basis =
       brdf::basis_albedo(result.model, result.values.shape, theta_i, phi_i, tolerance);
-  std::vector<double> coefficients(result.model.basis_size());
   for (const std::size_t channel : channels) {
-    const auto amplitudes = result.values.amplitudes.col(Eigen::Index(channel));
-    result.model.coefficients({amplitudes.data(), std::size_t(amplitudes.size())}, coefficients);
-    double value = 0;
-    double error = 0;
-    for (std::size_t b = 0; b < coefficients.size(); ++b) {
-      value += coefficients[b] * basis.values[b];
-      error += std::abs(coefficients[b]) * basis.errors[b];
-    }
-    if (value - error > largest.value) largest = {value, theta_i, channel};
+    // Coefficients are not negative.
+    const double value =
+        combined(result, channel, basis.values) - combined(result, channel, basis.errors);
+    if (value > largest.value) largest = {value, theta_i, channel};
   }
 }
 
@@ -77,6 +93,7 @@ std::optional<std::string> albedo_warning(const FitResult& result,
   constexpr double most_grazing = 89.9999 * radians_per_degree;
   const double theta_i = std::min(std::atan2(std::hypot(wi.x, wi.y), wi.z), most_grazing);
   const double phi_i = std::atan2(wi.y, wi.x);
+  if (!is_worth_a_look(result, channels, theta_i, phi_i)) return std::nullopt;
   LargestAlbedo largest;
   for (const double angle : angles_up_to(theta_i)) look_at(result, channels, angle, phi_i, largest);
   if (largest.value <= 1) return std::nullopt;

@@ -22,7 +22,9 @@ struct Point {
   double square;
 };
 
-Point lower(Point a, Point b) { return b.square < a.square ? std::move(b) : std::move(a); }
+bool is_same(const Point& a, const Point& b) {
+  return std::abs(a.square - b.square) <= same_square * b.square;
+}
 
 /// A step of Gauss and Newton.
 struct Step {
@@ -79,12 +81,13 @@ class NonlinearProblem {
     std::optional<Step> last;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       const Step step{now.free, linear_solution(now.free)};
-      Point next = at(step.to);
-      if (std::abs(next.square - now.square) <= same_square * now.square) {
+      const Point plain = at(step.to);
+      Point next = last ? at(along(step, secant_length(*last, step))) : plain;
+      if (is_same(plain, now) && is_same(next, now)) {
         // Where the squares tell nothing more, steps go on as long as they shrink.
         if (step.size() == 0 || (last && step.size() >= last->size())) break;
       } else {
-        if (last) next = lower(std::move(next), at(along(step, secant_length(*last, step))));
+        if (plain.square < next.square) next = plain;
         double length = 1;
         for (int halving = 0; halving < most_halvings && next.square > now.square; ++halving) {
           length /= 2;

@@ -154,12 +154,12 @@ void warn_of_undetermined(const FitResult& result, const Identifiability& identi
 }
 
 /// How far a rival's parameter is from the fitted one, for it to be another: in standard
-/// deviations, and relative to the values.
+/// deviations, and relative to its size.
 constexpr double other_deviations = 3;
-constexpr double other_share = 1e-6;
+constexpr double other_share = 1e-4;
 
 /// Two materials that look the same from these directions, each with small intervals of its own.
-void warn_of_rivals(const FitResult& result, std::vector<std::string>& warnings) {
+void warn_of_rivals(const FitResult& result, const Box& box, std::vector<std::string>& warnings) {
   for (const ParameterValues& rival : result.rivals) {
     std::vector<std::size_t> others;
     std::vector<std::string> values;
@@ -168,13 +168,16 @@ void warn_of_rivals(const FitResult& result, std::vector<std::string>& warnings)
       if (!result.uncertainty.stddev[u]) continue;
       const double here = result.values[unknown];
       const double there = rival[unknown];
-      const double least = std::max(other_deviations * *result.uncertainty.stddev[u],
-                                    other_share * std::max(std::abs(here), std::abs(there)));
+      const double range = box.upper(unknown) - box.lower(unknown);
+      const double size = std::isfinite(range) ? range : std::max(std::abs(here), std::abs(there));
+      const double least =
+          std::max(other_deviations * *result.uncertainty.stddev[u], other_share * size);
       if (std::abs(here - there) <= least) continue;
       others.push_back(u);
       values.push_back(fmt::format("{} {:.4g}", unknown.name, there));
     }
-    if (others.empty()) continue;
+    // One that stands alone goes together with others whose intervals are wide and say so.
+    if (others.size() < 2) continue;
     warnings.push_back(fmt::format(
         "these data cannot tell {} apart: {} explain them as well as the values given, whose "
         "intervals do not know of it; measure other channels or directions, or fix one with --fix",
@@ -192,7 +195,7 @@ void warn_of_bounds(const FitResult& result, const Box& box, const Identifiabili
     if (goes_round(result.model, box, unknown)) continue;
     const double value = result.values[unknown];
     // A logarithmic solver comes close to a bound without standing on it.
-    const double near = unknown.is_shape ? 1e-6 * std::abs(value) : 0;
+    const double near = unknown.is_shape ? 1e-6 * std::max(std::abs(value), least_root) : 0;
     const bool at_lower = value - box.lower(unknown) <= near;
     const bool at_upper = box.upper(unknown) - value <= near;
     if (!at_lower && !at_upper) continue;
@@ -203,6 +206,17 @@ void warn_of_bounds(const FitResult& result, const Box& box, const Identifiabili
   }
 }
 
+/// True for an unknown that is undetermined only against a shape: its channel was seen.
+bool is_tied_to_shape(const FitResult& result, const Identifiability& identifiability,
+                      std::size_t unknown) {
+  const auto& groups = identifiability.undetermined();
+  return std::any_of(groups.begin(), groups.end(), [&](const std::vector<std::size_t>& group) {
+    return std::find(group.begin(), group.end(), unknown) != group.end() &&
+           std::any_of(group.begin(), group.end(),
+                       [&](std::size_t u) { return result.unknowns[u].is_shape; });
+  });
+}
+
 void warn_of_empty_channels(const FitResult& result, const Identifiability& identifiability,
                             std::vector<std::string>& warnings) {
   for (std::size_t c = 0; c < result.channels.size(); ++c) {
@@ -210,7 +224,8 @@ void warn_of_empty_channels(const FitResult& result, const Identifiability& iden
     for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
       const Unknown& unknown = result.unknowns[u];
       if (unknown.is_shape || unknown.channel != c) continue;
-      seen = seen || unknown.fixed || !identifiability.is_undetermined(u);
+      seen = seen || unknown.fixed || !identifiability.is_undetermined(u) ||
+             is_tied_to_shape(result, identifiability, u);
     }
     if (!seen) {
       warnings.push_back(fmt::format("channel {} has too few values to determine anything of it",
@@ -336,7 +351,7 @@ std::vector<std::string> diagnose(const FitResult& result, const Box& box,
   warn_of_insignificant_terms(result, identifiability, warnings);
   warn_of_lobes_between_samples(result, identifiability, warnings);
   warn_of_undetermined(result, identifiability, warnings);
-  warn_of_rivals(result, warnings);
+  warn_of_rivals(result, box, warnings);
   warn_of_albedo(result, identifiability, warnings);
   if (const auto warning = albedo_warning(result, identifiability, most_grazing_wi)) {
     warnings.push_back(*warning);

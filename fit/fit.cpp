@@ -11,6 +11,7 @@
 #include "fit/canonical.h"
 #include "fit/diagnose.h"
 #include "fit/robust_scale.h"
+#include "fit/scale.h"
 #include "fit/search.h"
 #include "fit/solve.h"
 #include "fit/subset.h"
@@ -255,6 +256,16 @@ void settle_noise(const table::SampleTable& table, const Problem& problem, Found
   solution.converged = solution.converged && settled;
 }
 
+/// What the solver took for 0 becomes 0.
+void clear_least_roots(const brdf::Model& model, const Box& box, ParameterValues& values) {
+  for (std::size_t j = 0; j < values.shape.size(); ++j) {
+    if (model.shape()[j].descriptor.scale == brdf::Scale::quadratic && box.shape_lower[j] == 0 &&
+        values.shape[j] <= least_root) {
+      values.shape[j] = 0;
+    }
+  }
+}
+
 /// The criteria of models of one table, from -2 ln of the likelihood.
 void add_criteria(const Assessment& assessment, const Identifiability& identifiability,
                   const WeightedSamples& samples, FitResult& result) {
@@ -344,6 +355,7 @@ FitResult fit(const brdf::Model& model, const table::SampleTable& table, const O
                    .passes = passes.count(),
                    .warnings = {}};
   add_criteria(assessment, identifiability, *samples, result);
+  clear_least_roots(model, box, result.values);
   result.warnings = diagnose(result, box, identifiability, survey.most_grazing_wi);
   return result;
 }

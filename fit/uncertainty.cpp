@@ -36,6 +36,11 @@ Eigen::MatrixXd significant_amplitudes(const LinearSystem& system,
   return significant;
 }
 
+/// Amplitudes are walked as they are.
+brdf::Scale scale_of(const brdf::Model& model, const Unknown& unknown) {
+  return unknown.is_shape ? model.shape()[unknown.index].descriptor.scale : brdf::Scale::linear;
+}
+
 /// A large change of a shape parameter.
 double natural_size(const brdf::Model& model, const Unknown& unknown,
                     const ParameterValues& values) {
@@ -96,6 +101,20 @@ double quantile_975(double degrees) {
   return boost::math::quantile(boost::math::students_t(degrees), 0.975);
 }
 
+/// The standard deviation of a parameter. Near 0 of a quadratic scale that of the square is what
+/// the data tells, and its root is taken.
+double stddev_of(double value, double stddev, brdf::Scale scale) {
+  if (scale != brdf::Scale::quadratic || stddev < value / 2) return stddev;
+  return std::sqrt(value * value + 2 * value * stddev) - value;
+}
+
+/// value -+ half_width, on a quadratic scale of the square.
+std::pair<double, double> around(double value, double half_width, brdf::Scale scale) {
+  if (scale != brdf::Scale::quadratic) return {value - half_width, value + half_width};
+  const double half = 2 * value * half_width;
+  return {std::sqrt(std::max(value * value - half, 0.0)), std::sqrt(value * value + half)};
+}
+
 /// Cut at the bounds; that of an angle that goes round runs past them, up to a whole period.
 std::pair<double, double> interval_of(double value, double half_width, const brdf::Model& model,
                                       const Box& box, const Unknown& unknown) {
@@ -105,7 +124,8 @@ std::pair<double, double> interval_of(double value, double half_width, const brd
     const double half = std::min(half_width, (upper - lower) / 2);
     return {value - half, value + half};
   }
-  return {std::max(value - half_width, lower), std::min(value + half_width, upper)};
+  const auto [from, to] = around(value, half_width, scale_of(model, unknown));
+  return {std::max(from, lower), std::min(to, upper)};
 }
 
 /// The degrees of freedom of the intervals' distribution; infinity for the normal one.
@@ -250,13 +270,14 @@ void complete_uncertainty(const Solution& solution, const Identifiability& ident
     const auto i = Eigen::Index(u);
     const double stddev = std::sqrt(std::max(covariance(i, i), 0.0));
     const double value = solution.values[unknowns[u]];
-    result.stddev[u] = stddev;
+    result.stddev[u] = stddev_of(value, stddev, scale_of(model, unknowns[u]));
     result.interval95[u] = interval_of(value, quantile * stddev, model, box, unknowns[u]);
   }
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = 0; b < count; ++b) {
       if (!result.stddev[a] || !result.stddev[b]) continue;
-      const double product = *result.stddev[a] * *result.stddev[b];
+      const double product = std::sqrt(covariance(Eigen::Index(a), Eigen::Index(a)) *
+                                       covariance(Eigen::Index(b), Eigen::Index(b)));
       result.correlation[a][b] =
           a == b ? 1.0
           : product > 0

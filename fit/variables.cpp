@@ -21,6 +21,9 @@ Variable Variable::of_shape(const brdf::Model& model, const Box& box, std::size_
   variable.scale_ = descriptor.scale;
   variable.lower_ = box.shape_lower[index];
   variable.upper_ = box.shape_upper[index];
+  if (descriptor.scale == brdf::Scale::quadratic && !variable.is_fixed()) {
+    variable.lower_ = std::min(std::max(variable.lower_, least_root), variable.upper_);
+  }
   // Confined to less than a period, an angle is a number like others.
   if (descriptor.scale == brdf::Scale::periodic &&
       (variable.lower_ > descriptor.lower || variable.upper_ < descriptor.upper)) {
@@ -52,7 +55,7 @@ double& Variable::parameter(ParameterValues& values) const {
 
 double Variable::from(const ParameterValues& values) const {
   const double value = parameter(values);
-  return to_variable(scale_, value);
+  return to_variable(scale_, std::clamp(value, lower_, upper_));
 }
 
 void Variable::to(double variable, ParameterValues& values) const {

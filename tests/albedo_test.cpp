@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gonio::brdf {
@@ -339,6 +341,28 @@ TEST(Albedo, OfAmplitudesThatNoNumberHoldsSaturates) {
     const Albedo result = albedo(model, theta * radians_per_degree, 0);
     EXPECT_EQ(result.values[0], std::numeric_limits<double>::max());
     EXPECT_TRUE(std::isfinite(result.errors[0]));
+  }
+}
+
+TEST(RoughAlbedo, IsGoodEnoughForALook) {
+  const std::vector<std::pair<const char*, std::vector<double>>> shapes{
+      {"ward", {.02}},        {"ward", {.3}},
+      {"ward-gmd", {.1}},     {"ward-duer", {.1}},
+      {"ward-duer", {.3}},    {"ward-duer-aniso", {.06, .4}},
+      {"blinn-phong", {200}}, {"ashikhmin-shirley", {1000}},
+      {"oren-nayar", {.5}},   {"strauss", {.8, .5, .2}}};
+  for (const auto& [name, shape] : shapes) {
+    const Model model(name);
+    for (const double theta : {0.0, 45.0, 80.0, 87.0}) {
+      const double theta_i = theta * radians_per_degree;
+      const std::vector<double> rough = rough_basis_albedo(model, shape, theta_i, 0.3);
+      const Albedo exact = basis_albedo(model, shape, theta_i, 0.3, 1e-4);
+      for (std::size_t b = 0; b < rough.size(); ++b) {
+        // Its promise; what hardly reflects needs no look.
+        EXPECT_NEAR(rough[b], exact.values[b], 0.2 * std::max(exact.values[b], 0.01))
+            << name << " " << theta << " deg, basis function " << b;
+      }
+    }
   }
 }
 

@@ -4,62 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "fit/fit.h"
-#include "fit/scale.h"
 #include "instrument/synthesize.h"
+#include "tests/drawn_recipe.h"
 
 namespace gonio::tests {
 namespace {
-
-struct Range {
-  double lower, upper;
-};
-
-/// Where the truths are drawn, by the parameter's name: lobes that are wider than the samples are
-/// apart and narrower than the hemisphere, and amplitudes that leave every part to be seen.
-const std::map<std::string, Range> ranges{
-    {"rho_d", {.05, .8}},   {"rho_s", {.02, .4}},   {"ks", {.05, 3}},     {"Rd", {.05, .9}},
-    {"Rs", {.02, .9}},      {"c", {.05, .95}},      {"alpha", {.05, .6}}, {"alpha_x", {.05, .6}},
-    {"alpha_y", {.05, .6}}, {"exponent", {2, 500}}, {"n", {2, 500}},      {"nu", {2, 500}},
-    {"nv", {2, 500}},       {"sigma", {.05, 1.3}},  {"s", {.1, .95}},     {"m", {.05, .95}},
-    {"t", {0, .9}}};
-
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : random_(seed) {}
-
-  double from(const brdf::Parameter& descriptor) {
-    const Range range = ranges.at(std::string(descriptor.name));
-    const double share = double(random_() >> 11) * 0x1p-53;
-    return fit::parameter_between(descriptor.scale, range.lower, range.upper, share);
-  }
-
- private:
-  std::mt19937_64 random_;
-};
-
-instrument::Recipe drawn_recipe(const brdf::Model& model, Draw& draw) {
-  instrument::Recipe recipe;
-  recipe.name = "drawn";
-  recipe.model = model.name();
-  recipe.channels = {"R", "G", "B"};
-  for (const brdf::OrderedParameter& p : brdf::ordered_parameters(model)) {
-    for (int value = 0; value < (p.per_channel ? 3 : 1); ++value) {
-      recipe.parameters[p.parameter->name].push_back(draw.from(p.parameter->descriptor));
-    }
-  }
-  recipe.incidence_angles_deg = {10, 25, 40, 55, 70};
-  recipe.sample_rotations_deg = {0, 30, 60, 90};
-  recipe.hemisphere = {.theta_step_deg = 10, .phi_step_deg = 30};
-  recipe.mirror_patch = instrument::MirrorPatch{
-      .radius_step_deg = 2, .radius_max_deg = 16, .directions_per_ring = 12};
-  return recipe;
-}
 
 /// The largest relative error of a parameter that the directions determine.
 double worst_error(const fit::FitResult& result, const instrument::Recipe& recipe,
@@ -89,11 +42,11 @@ class EveryModel : public testing::TestWithParam<std::string> {};
 TEST_P(EveryModel, IsRecoveredFromNoiseFreeTables) {
   const brdf::Model model(GetParam());
   const int truths = model.shape().size() < 3 ? 20 : 100;
-  Draw draw(2024);
+  RecipeDraw draw(2024);
   int found = 0;
   double worst = 0;
   for (int truth = 0; truth < truths; ++truth) {
-    const instrument::Recipe recipe = drawn_recipe(model, draw);
+    const instrument::Recipe recipe = draw.recipe(model);
     const table::SampleTable table = instrument::synthesize(recipe);
     const fit::Metric metric = truth % 2 == 0 ? fit::Metric::l2 : fit::Metric::cosine_l2;
     const fit::FitResult result = fit::fit(model, table, {.metric = metric});
