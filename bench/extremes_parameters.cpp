@@ -16,6 +16,7 @@ double draw_inside(RandomSource& random, const Parameter& p) {
     case Scale::logarithmic_from_one:
       return std::expm1(random.uniform(std::log1p(p.lower), std::log1p(p.upper)));
     case Scale::linear:
+    case Scale::quadratic:
     case Scale::periodic:
       break;
   }

@@ -60,7 +60,8 @@ inline double natural_scale(const brdf::Parameter& parameter, double value) {
 /// Small against the natural scale and against the distance to either bound.
 inline Digits step_of(const brdf::Parameter& parameter, double value) {
   double distance = natural_scale(parameter, value);
-  if (parameter.scale == brdf::Scale::linear && !is_bound(parameter, value)) {
+  if ((parameter.scale == brdf::Scale::linear || parameter.scale == brdf::Scale::quadratic) &&
+      !is_bound(parameter, value)) {
     distance = std::min({distance, value - parameter.lower, parameter.upper - value});
   }
   return Digits("1e-15") * distance;

@@ -1,18 +1,22 @@
 // The batches of a model's terms, made of packs of four doubles, against the terms evaluated one
 // pair of directions at a time.
+#include "fit/batch_model.h"
+
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "brdf/model.h"
 #include "brdf/terms.h"
-#include "fit/batch_model.h"
+#include "fit/scale.h"
 
 namespace gonio::tests {
 namespace {
@@ -52,12 +56,11 @@ brdf::Direction<double> wo_of(const fit::DirectionChunk& chunk, std::size_t i) {
   return {chunk.wo_x[i], chunk.wo_y[i], chunk.wo_z[i]};
 }
 
-/// The derivatives of a model's basis by its shape, [amplitude][shape], by scalar Jets.
+/// The derivatives of a model's basis functions by its shape, [basis][shape], by scalar Jets.
 using JetTable = std::vector<std::vector<double>>;
 
 template <class T>
-void add_jets(const brdf::Model& model, std::size_t term, std::size_t& amplitude,
-              std::size_t& shape_index, const std::vector<double>& shape,
+void add_jets(std::size_t& first_basis, std::size_t& shape_index, const std::vector<double>& shape,
               const brdf::Direction<double>& wi, const brdf::Direction<double>& wo,
               JetTable& derivatives) {
   constexpr std::size_t shape_count = T::shape.size();
@@ -68,11 +71,11 @@ void add_jets(const brdf::Model& model, std::size_t term, std::size_t& amplitude
     const auto basis = T::template basis<Jet, double>(theta, wi, wo);
     for (std::size_t k = 0; k < basis.size(); ++k) {
       for (std::size_t j = 0; j < shape_count; ++j) {
-        derivatives[amplitude + k][shape_index + j] = basis[k].v[Eigen::Index(j)];
+        derivatives[first_basis + k][shape_index + j] = basis[k].v[Eigen::Index(j)];
       }
     }
   }
-  amplitude += model.terms()[term]->amplitudes.size();
+  first_basis += brdf::basis_size<T>;
   shape_index += shape_count;
 }
 
@@ -80,30 +83,58 @@ template <std::size_t... I>
 JetTable jets_of(const brdf::Model& model, const std::vector<double>& shape,
                  const brdf::Direction<double>& wi, const brdf::Direction<double>& wo,
                  std::index_sequence<I...> /*terms*/) {
-  JetTable derivatives(model.amplitudes().size(), std::vector<double>(shape.size()));
-  std::size_t amplitude = 0;
+  JetTable derivatives(model.basis_size(), std::vector<double>(shape.size()));
+  std::size_t first_basis = 0;
   std::size_t shape_index = 0;
-  for (std::size_t t = 0; t < model.terms().size(); ++t) {
-    const std::size_t index = model.terms()[t]->index;
-    ((index == I ? add_jets<std::tuple_element_t<I, brdf::EvaluatedTerms>>(
-                       model, t, amplitude, shape_index, shape, wi, wo, derivatives)
-                 : void()),
+  for (const brdf::TermEntry* term : model.terms()) {
+    ((term->index == I ? add_jets<std::tuple_element_t<I, brdf::EvaluatedTerms>>(
+                             first_basis, shape_index, shape, wi, wo, derivatives)
+                       : void()),
      ...);
   }
   return derivatives;
 }
 
-/// A shape inside the search ranges, different for each parameter.
+/// A shape inside the search ranges, at a different share of each: no two parameters are alike, and
+/// those along x and y differ by a factor of less than 4.
 std::vector<double> some_shape(const brdf::Model& model) {
   std::vector<double> shape;
   for (const brdf::ModelParameter& parameter : model.shape()) {
-    const bool is_angle = parameter.descriptor.scale == brdf::Scale::periodic;
-    shape.push_back(is_angle ? 0.4 : 0.09 * std::pow(1.7, double(shape.size())));
+    const brdf::Parameter& p = parameter.descriptor;
+    const double share = 0.55 + 0.07 * double(shape.size());
+    shape.push_back(fit::parameter_between(p.scale, p.search_lower, p.search_upper, share));
   }
   return shape;
 }
 
-class BatchOf : public testing::TestWithParam<std::pair<const char*, brdf::Frame>> {
+/// A model and where its tangent points.
+struct Composition {
+  std::string model;
+  brdf::Frame frame = brdf::Frame::of_table;
+};
+
+/// Every model, the anisotropic ones in a free frame as well, and sums of terms whose authors did
+/// not know each other.
+std::vector<Composition> compositions() {
+  std::vector<Composition> all;
+  for (const std::string& name : brdf::model_names()) {
+    all.push_back({name});
+    if (brdf::Model(name).is_anisotropic()) all.push_back({name, brdf::Frame::free});
+  }
+  for (const char* name : {"lambert+ashikhmin-shirley", "oren-nayar+phong", "oren-nayar-full+ward",
+                           "lambert+ward+ashikhmin-shirley", "oren-nayar-full+phong+blinn-phong"}) {
+    all.push_back({name});
+  }
+  for (const char* name :
+       {"lambert+ashikhmin-shirley-aniso", "oren-nayar-full+ward-gmd-aniso",
+        "lambert+ward+ward-gmd-aniso", "oren-nayar+ashikhmin-shirley-aniso+ward-aniso"}) {
+    all.push_back({name});
+    all.push_back({name, brdf::Frame::free});
+  }
+  return all;
+}
+
+class BatchOf : public testing::TestWithParam<Composition> {
  protected:
   // An exponent of up to 27.6 and the slopes in it err by some 1e-15 each, the value by that share.
   static constexpr double rounding = 1e-12;
@@ -115,7 +146,7 @@ class BatchOf : public testing::TestWithParam<std::pair<const char*, brdf::Frame
     const fit::BatchModel batch(model);
     for (std::size_t i = 0; i < chunk.count; ++i) {
       const auto row = Eigen::Index(i);
-      std::vector<double> basis(model.amplitudes().size());
+      std::vector<double> basis(model.basis_size());
       model.basis(shape, wi_of(chunk, i), wo_of(chunk, i), basis);
       const JetTable jets =
           jets_of(model, shape, wi_of(chunk, i), wo_of(chunk, i),
@@ -126,17 +157,18 @@ class BatchOf : public testing::TestWithParam<std::pair<const char*, brdf::Frame
         ASSERT_TRUE(value == 0 || (chunk.wi_z[i] > 0 && chunk.wo_z[i] > 0)) << "below the horizon";
       }
       for (std::size_t d = 0; d < batch.derivatives().size(); ++d) {
-        const auto [amplitude, j] = batch.derivatives()[d];
-        // The parts of a derivative, 2 * 27.6 / alpha times the value, may cancel: rounding is held
-        // to their size; psi turns alpha_x / alpha_y + alpha_y / alpha_x < 4 times the exponent.
-        const bool is_angle = model.shape()[j].descriptor.scale == brdf::Scale::periodic;
-        const double scale = basis[amplitude] * 60 * (is_angle ? 4 : 1 / shape[j]);
-        const double expected = jets[amplitude][j];
-        if (basis[amplitude] < dark) {
-          ASSERT_TRUE(std::isfinite(columns(row, Eigen::Index(basis.size() + d))));
+        const auto [function, j] = batch.derivatives()[d];
+        const double derivative = columns(row, Eigen::Index(basis.size() + d));
+        if (basis[function] < dark) {
+          ASSERT_TRUE(std::isfinite(derivative));
           continue;
         }
-        ASSERT_NEAR(columns(row, Eigen::Index(basis.size() + d)), expected, rounding * scale);
+        // The parts of a derivative, at most 2 * 27.6 / parameter times the value, may cancel:
+        // rounding is held to their size. psi turns x / y + y / x < 4 times the exponent.
+        const bool is_angle = model.shape()[j].descriptor.scale == brdf::Scale::periodic;
+        const double size = basis[function] * 60 * (is_angle ? 4 : 1 / shape[j]);
+        ASSERT_NEAR(derivative, jets[function][j], rounding * size)
+            << model.shape()[j].name << " of function " << function;
         ++compared;
       }
     }
@@ -144,7 +176,7 @@ class BatchOf : public testing::TestWithParam<std::pair<const char*, brdf::Frame
 };
 
 TEST_P(BatchOf, HoldsTheTermsAndTheirDerivativesWhateverItsLength) {
-  const brdf::Model model(GetParam().first, GetParam().second);
+  const brdf::Model model(GetParam().model, GetParam().frame);
   const fit::BatchModel batch(model);
   const std::vector<double> shape = some_shape(model);
   int compared = 0;
@@ -172,7 +204,7 @@ TEST_P(BatchOf, HoldsTheTermsAndTheirDerivativesWhateverItsLength) {
 }
 
 TEST_P(BatchOf, IsFiniteAtTheExtremes) {
-  const brdf::Model model(GetParam().first, GetParam().second);
+  const brdf::Model model(GetParam().model, GetParam().frame);
   const fit::BatchModel batch(model);
   fit::DirectionChunk chunk = directions(8, 1);
   const std::array<double, 8> cosines{1, 1e-3, 1e-10, 1e-160, 5e-324, 0, -1e-3, -1};
@@ -185,43 +217,30 @@ TEST_P(BatchOf, IsFiniteAtTheExtremes) {
       chunk.wo_y[i] = 0;
       chunk.wo_z[i] = cos_o;
     }
-    for (const double alpha : {1e-4, 10.0}) {
-      std::vector<double> shape = some_shape(model);
-      for (std::size_t j = 0; j < shape.size(); ++j) {
-        if (model.shape()[j].descriptor.scale == brdf::Scale::logarithmic) shape[j] = alpha;
+    // Every corner of the shape's bounds.
+    for (std::size_t corner = 0; corner < std::size_t(1) << model.shape().size(); ++corner) {
+      std::vector<double> shape;
+      for (std::size_t j = 0; j < model.shape().size(); ++j) {
+        const brdf::Parameter& p = model.shape()[j].descriptor;
+        shape.push_back((corner >> j & 1) != 0 ? p.upper : p.lower);
       }
-      Eigen::MatrixXd columns(fit::column_stride, Eigen::Index(batch.column_count(false)));
-      batch.evaluate(chunk, shape, false, columns);
-      EXPECT_TRUE(columns.topRows(8).allFinite()) << cos_o << " alpha " << alpha;
-      EXPECT_TRUE((columns.topRows(8).array() >= 0).all()) << cos_o << " alpha " << alpha;
+      Eigen::MatrixXd columns(fit::column_stride, Eigen::Index(batch.column_count(true)));
+      batch.evaluate(chunk, shape, true, columns);
+      EXPECT_TRUE(columns.topRows(8).allFinite()) << cos_o << " corner " << corner;
+      EXPECT_TRUE((columns.topLeftCorner(8, Eigen::Index(batch.basis_size())).array() >= 0).all())
+          << cos_o << " corner " << corner;
       EXPECT_TRUE((columns.middleRows(5, 3).array() == 0).all()) << "below the horizon";
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryTerm, BatchOf,
-                         testing::Values(std::pair("lambert", brdf::Frame::of_table),
-                                         std::pair("ward", brdf::Frame::of_table),
-                                         std::pair("ward-aniso", brdf::Frame::of_table),
-                                         std::pair("ward-approx", brdf::Frame::of_table),
-                                         std::pair("ward-approx-aniso", brdf::Frame::of_table),
-                                         std::pair("ward-duer", brdf::Frame::of_table),
-                                         std::pair("ward-duer-aniso", brdf::Frame::of_table),
-                                         std::pair("ward-gmd", brdf::Frame::of_table),
-                                         std::pair("ward-gmd-aniso", brdf::Frame::of_table),
-                                         std::pair("ward-aniso", brdf::Frame::free),
-                                         std::pair("ward-approx-aniso", brdf::Frame::free),
-                                         std::pair("ward-duer-aniso", brdf::Frame::free),
-                                         std::pair("ward-gmd-aniso", brdf::Frame::free),
-                                         std::pair("lambert+ward+ward-gmd-aniso",
-                                                   brdf::Frame::free)),
+INSTANTIATE_TEST_SUITE_P(EveryModel, BatchOf, testing::ValuesIn(compositions()),
                          [](const auto& instance) {
-                           std::string name = instance.param.first;
-                           for (char& c : name) {
-                             if (c == '-' || c == '+') c = '_';
-                           }
-                           return name +
-                                  (instance.param.second == brdf::Frame::free ? "_free" : "");
+                           std::string name = instance.param.model;
+                           std::replace_if(
+                               name.begin(), name.end(),
+                               [](char c) { return std::isalnum(c) == 0; }, '_');
+                           return name + (instance.param.frame == brdf::Frame::free ? "_free" : "");
                          });
 
 }  // namespace
