@@ -192,7 +192,7 @@ std::vector<double> rough_basis_albedo(const Model& model, std::span<const doubl
                                        double theta_i, double phi_i) {
   check(theta_i, phi_i, albedo_tolerance);
   constexpr double steps_per_decade = 6;
-  constexpr int azimuths = 16;
+  const int azimuths = model.is_anisotropic() ? 48 : 16;
   constexpr double least_slope = 1e-5;
   const Direction<double> wi = direction_from_radians(theta_i, phi_i);
   const double ratio = std::pow(10, 1 / steps_per_decade);

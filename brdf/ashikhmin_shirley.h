@@ -153,6 +153,9 @@ inline constexpr Parameter diffuse_share =
 inline constexpr Parameter specular_share =
     share("Rs", "specular reflectance at normal incidence, F(1)");
 
+inline constexpr std::string_view symbols =
+    "h = unit half vector; N = sqrt((nu + 1)(nv + 1)) / (8 pi); e = (nu hx^2 + nv hy^2) / (hx^2 + "
+    "hy^2); F = Rs + (1 - Rs)(1 - h.wi)^5; P(x) = 1 - (1 - x/2)^5; nu = nv = n without -aniso";
 inline constexpr std::string_view source =
     "Ashikhmin & Shirley, An Anisotropic Phong Light Reflection Model, UUCS-00-014, 2000";
 
@@ -165,8 +168,9 @@ struct AshikhminShirley {
       .name = Exponents::name,
       .kind = TermKind::specular,
       .companion = "lambert",
-      .summary = "cosine lobe of the half vector with Schlick's Fresnel factor",
+      .summary = "N (n.h)^e F / ((h.wi) max(cos_i, cos_o)), the specular part alone",
       .source = ashikhmin_shirley_detail::source,
+      .symbols = ashikhmin_shirley_detail::symbols,
       .anisotropic = Exponents::anisotropic,
       .coefficients = Coefficients::affine};
   static constexpr std::array<Parameter, 1> amplitudes{ashikhmin_shirley_detail::specular_share};
@@ -191,8 +195,11 @@ struct CoupledAshikhminShirley {
       .name = Exponents::name,
       .kind = TermKind::whole,
       .companion = "",
-      .summary = "cosine lobe of the half vector over the diffuse light that it lets through",
+      .summary =
+          "N (n.h)^e F / ((h.wi) max(cos_i, cos_o)) + 28 Rd / (23 pi) (1 - Rs) P(cos_i) "
+          "P(cos_o)",
       .source = ashikhmin_shirley_detail::source,
+      .symbols = ashikhmin_shirley_detail::symbols,
       .anisotropic = Exponents::anisotropic,
       .coefficients = Coefficients::nonlinear};
   static constexpr std::array<Parameter, 2> amplitudes{ashikhmin_shirley_detail::diffuse_share,

@@ -5,9 +5,11 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "brdf/free_frame.h"
+#include "brdf/nearest_name.h"
 
 namespace gonio::brdf {
 namespace {
@@ -71,8 +73,13 @@ void refuse_unknown(const Model& model, std::span<const NamedValues> parameters)
   for (const NamedValues& p : parameters) {
     if (std::none_of(known.begin(), known.end(),
                      [&](const OrderedParameter& k) { return k.parameter->name == p.name; })) {
+      std::vector<std::string> names;
+      for (const OrderedParameter& k : known) names.push_back(k.parameter->name);
+      const std::optional<std::string_view> nearest = nearest_name(p.name, names);
       throw ParameterError(std::string(p.name),
-                           "not a parameter of " + model.name() + ", expected " + names_of(model));
+                           "not a parameter of " + model.name() +
+                               (nearest ? ", did you mean '" + std::string(*nearest) + "'?" : "") +
+                               ", expected " + names_of(model));
     }
   }
 }

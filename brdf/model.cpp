@@ -33,6 +33,25 @@ void coefficients_for(const double* amplitudes, double* coefficients) {
                  [](double c) { return std::min(c, std::numeric_limits<double>::max()); });
 }
 
+template <Term T>
+void twin_of(const double* shape, const double* amplitudes, double* other_shape) {
+  std::array<double, T::shape.size()> theta;
+  std::array<double, T::amplitudes.size()> given;
+  std::copy_n(shape, theta.size(), theta.begin());
+  std::copy_n(amplitudes, given.size(), given.begin());
+  const auto other = T::twin(theta, given);
+  std::copy(other.begin(), other.end(), other_shape);
+}
+
+template <Term T>
+constexpr auto twin_function() -> decltype(TermEntry::twin) {
+  if constexpr (term_detail::HasTwin<T>) {
+    return &twin_of<T>;
+  } else {
+    return nullptr;
+  }
+}
+
 template <std::size_t... I>
 std::array<TermEntry, sizeof...(I)> make_entries(std::index_sequence<I...> /*indices*/) {
   return {TermEntry{.description = std::tuple_element_t<I, EvaluatedTerms>::description,
@@ -41,7 +60,8 @@ std::array<TermEntry, sizeof...(I)> make_entries(std::index_sequence<I...> /*ind
                     .index = I,
                     .basis_size = basis_size<std::tuple_element_t<I, EvaluatedTerms>>,
                     .basis = &basis_of<std::tuple_element_t<I, EvaluatedTerms>>,
-                    .coefficients = &coefficients_for<std::tuple_element_t<I, EvaluatedTerms>>}...};
+                    .coefficients = &coefficients_for<std::tuple_element_t<I, EvaluatedTerms>>,
+                    .twin = twin_function<std::tuple_element_t<I, EvaluatedTerms>>()}...};
 }
 
 std::span<const TermEntry> evaluated_terms() {
@@ -81,15 +101,23 @@ const TermEntry* find_term(std::span<const TermEntry> terms, std::string_view na
   std::vector<std::string> names;
   for (const TermEntry& entry : all_terms()) names.emplace_back(entry.description.name);
   const std::optional<std::string_view> nearest = nearest_name(name, names);
-  refuse(model, "there is no term '" + std::string(name) + "'" +
-                    (nearest ? ", did you mean '" + std::string(*nearest) + "'?" : ""));
+  if (nearest) {
+    throw std::invalid_argument("model '" + std::string(model) + "': there is no term '" +
+                                std::string(name) + "', did you mean '" + std::string(*nearest) +
+                                "'? 'gonio models' lists what there is");
+  }
+  refuse(model, "there is no term '" + std::string(name) + "'");
 }
 
 /// The term that the place in a sum wants.
 const TermEntry& require_summand(std::string_view model, std::string_view name, TermKind wanted) {
   if (const TermEntry* term = find_term(all_terms(), name, wanted)) return *term;
-  if (find_term(all_terms(), name, TermKind::diffuse) != nullptr ||
-      find_term(all_terms(), name, TermKind::specular) != nullptr) {
+  if (find_term(all_terms(), name, TermKind::diffuse) != nullptr) {
+    refuse(model, "'" + std::string(name) +
+                      "' is a second diffuse term, and only the first may be "
+                      "one: every further one has to be specular");
+  }
+  if (find_term(all_terms(), name, TermKind::specular) != nullptr) {
     refuse(model, "the first term has to be diffuse and every further one specular");
   }
   if (find_term(all_terms(), name, TermKind::whole) != nullptr) {

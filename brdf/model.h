@@ -32,6 +32,9 @@ struct TermEntry {
                 double* values);
   /// Writes the coefficients of the basis functions for the amplitudes of a channel.
   void (*coefficients)(const double* amplitudes, double* coefficients);
+  /// Writes the shape of another material with the same f_r, for amplitudes that all channels share
+  /// (term.h); null where there is none.
+  void (*twin)(const double* shape, const double* amplitudes, double* other_shape);
 };
 
 /// Every term that users can name, in the order of the list. A term that stands for a whole model

@@ -66,7 +66,9 @@ S lobe(const S& smoothness, const Direction<D>& wi, const Direction<D>& wo) {
   const MirrorCosine<D> cosine = mirror_cosine(wi, wo);
   const S rest = S(D(1)) - smoothness;
   const auto is_lobe = less(S(D(0)), rest);
-  const S mirror = S(select(less(cosine.log, D(0)), D(0), D(1)));
+  // Unit vectors are the mirror image of each other to their last digits only.
+  constexpr double epsilon = std::numeric_limits<D>::epsilon();
+  const S mirror = S(select(less(cosine.log, D(-16 * epsilon * epsilon)), D(0), D(1)));
   return select(is_lobe, power(cosine, S(S(D(3)) / select(is_lobe, rest, S(D(1))))), mirror);
 }
 
@@ -158,6 +160,14 @@ struct StraussTerm {
   template <class S>
   static std::array<S, 2> coefficients(const std::array<S, 1>& c) {
     return {c[0], S(1)};
+  }
+
+  /// Of a grey material, with one c for all channels, only (1 - m s) c and m (1 - c) are seen: the
+  /// shape of the other one that looks the same; there is none where its m is not in 0..1. Its
+  /// c is 1 - s m.
+  static std::array<double, 3> twin(const std::array<double, 3>& smt,
+                                    const std::array<double, 1>& c) {
+    return {smt[0], (1 - c[0]) / smt[0], smt[2]};
   }
 
   template <class S, class D>

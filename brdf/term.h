@@ -16,6 +16,11 @@
 //   template <class S>
 //   static std::array<S, B> coefficients(const std::array<S, K>& amplitudes);
 //
+// A term whose shape and amplitudes two materials may share f_r with says which the other one is:
+//
+//   static std::array<double, P> twin(const std::array<double, P>& shape,
+//                                     const std::array<double, K>& amplitudes);
+//
 // S is the scalar of the shape (and of the result), D that of the directions; f_r of the term is
 // the sum of coefficient[b] * basis[b], in 1/sr. Basis functions are finite and at least 0, and
 // exactly 0 below the horizon.
@@ -60,6 +65,12 @@ namespace term_detail {
 template <class T>
 concept HasCoefficients = requires(const std::array<double, T::amplitudes.size()>& amplitudes) {
   T::template coefficients<double>(amplitudes);
+};
+
+template <class T>
+concept HasTwin = requires(const std::array<double, T::shape.size()>& shape,
+                           const std::array<double, T::amplitudes.size()>& amplitudes) {
+  T::twin(shape, amplitudes);
 };
 
 }  // namespace term_detail

@@ -32,6 +32,16 @@ std::vector<double> angles_up_to(double theta_i) {
   return {theta_i, (theta_i + grazing) / 2, grazing};
 }
 
+/// That of the light, and where the material has a tangent those along and across it: an
+/// anisotropic table has light from all of them. A tangent of its own is within an eighth of a turn
+/// of one.
+std::vector<double> azimuths_of(const brdf::Model& model, double phi_i) {
+  if (!model.is_anisotropic()) return {phi_i};
+  constexpr double pi = std::numbers::pi;
+  if (!model.has_free_frame()) return {phi_i, 0, pi / 2};
+  return {phi_i, 0, pi / 4, pi / 2, 3 * pi / 4};
+}
+
 std::vector<std::size_t> determined_channels(const FitResult& result,
                                              const Identifiability& identifiability) {
   std::vector<bool> determined(result.channels.size(), true);
@@ -93,9 +103,13 @@ std::optional<std::string> albedo_warning(const FitResult& result,
   constexpr double most_grazing = 89.9999 * radians_per_degree;
   const double theta_i = std::min(std::atan2(std::hypot(wi.x, wi.y), wi.z), most_grazing);
   const double phi_i = std::atan2(wi.y, wi.x);
-  if (!is_worth_a_look(result, channels, theta_i, phi_i)) return std::nullopt;
   LargestAlbedo largest;
-  for (const double angle : angles_up_to(theta_i)) look_at(result, channels, angle, phi_i, largest);
+  for (const double azimuth : azimuths_of(result.model, phi_i)) {
+    if (!is_worth_a_look(result, channels, theta_i, azimuth)) continue;
+    for (const double angle : angles_up_to(theta_i)) {
+      look_at(result, channels, angle, azimuth, largest);
+    }
+  }
   if (largest.value <= 1) return std::nullopt;
   return fmt::format(
       "the albedo of channel {} is {:.3g} for light from {:.4g} deg, an angle that the samples "

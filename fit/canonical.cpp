@@ -70,6 +70,26 @@ ParameterValues with_swapped_terms(const brdf::TermEntry& term, const TermPlace&
 
 }  // namespace
 
+std::optional<ParameterValues> twin_of(const brdf::Model& model, const Box& box,
+                                       ParameterValues values) {
+  const std::vector<TermPlace> places = places_of(model);
+  bool has_twin = false;
+  for (std::size_t t = 0; t < places.size(); ++t) {
+    const brdf::TermEntry& term = *model.terms()[t];
+    if (term.twin == nullptr) continue;
+    has_twin = true;
+    const Eigen::VectorXd mean =
+        values.amplitudes
+            .middleRows(Eigen::Index(places[t].amplitude), Eigen::Index(term.amplitudes.size()))
+            .rowwise()
+            .mean();
+    const std::vector<double> shape = values.shape;
+    term.twin(&shape[places[t].shape], mean.data(), &values.shape[places[t].shape]);
+  }
+  if (!has_twin || !is_inside(box, values)) return std::nullopt;
+  return values;
+}
+
 ParameterValues canonical(const brdf::Model& model, const Box& box, ParameterValues values) {
   const auto terms = model.terms();
   const std::vector<TermPlace> places = places_of(model);

@@ -1,5 +1,6 @@
 #include "fit/channel_amplitudes.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -45,7 +46,14 @@ class NonlinearProblem {
  public:
   NonlinearProblem(const BatchModel& model, const FreeAmplitudes& amplitudes,
                    const Eigen::MatrixXd& basis, const Eigen::VectorXd& values)
-      : model_(model), amplitudes_(amplitudes), basis_(basis), values_(values) {}
+      : model_(model), amplitudes_(amplitudes), basis_(basis), values_(values) {
+    if (basis.rows() <= basis.cols()) return;
+    // The same problem in as many rows as columns: it is looked at many times.
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(basis);
+    const Eigen::VectorXd turned = qr.householderQ().adjoint() * values;
+    basis_ = qr.matrixQR().topRows(basis.cols()).triangularView<Eigen::Upper>();
+    values_ = turned.head(basis.cols());
+  }
 
   Point at(Eigen::VectorXd free) const {
     const double square = residuals(free).squaredNorm();
@@ -143,8 +151,8 @@ class NonlinearProblem {
 
   const BatchModel& model_;
   const FreeAmplitudes& amplitudes_;
-  const Eigen::MatrixXd& basis_;
-  const Eigen::VectorXd& values_;
+  Eigen::MatrixXd basis_;
+  Eigen::VectorXd values_;
 };
 
 Eigen::VectorXd solve_affine(const BatchModel& model, const FreeAmplitudes& amplitudes,

@@ -176,13 +176,14 @@ void warn_of_rivals(const FitResult& result, const Box& box, std::vector<std::st
       others.push_back(u);
       values.push_back(fmt::format("{} {:.4g}", unknown.name, there));
     }
+    const std::vector<std::string> names =
+        names_of(others, result.unknowns, result.channels.size());
     // One that stands alone goes together with others whose intervals are wide and say so.
-    if (others.size() < 2) continue;
+    if (names.size() < 2) continue;
     warnings.push_back(fmt::format(
         "these data cannot tell {} apart: {} explain them as well as the values given, whose "
         "intervals do not know of it; measure other channels or directions, or fix one with --fix",
-        fmt::join(names_of(others, result.unknowns, result.channels.size()), ", "),
-        fmt::join(values, ", ")));
+        fmt::join(names, ", "), fmt::join(values, ", ")));
   }
 }
 
@@ -206,28 +207,16 @@ void warn_of_bounds(const FitResult& result, const Box& box, const Identifiabili
   }
 }
 
-/// True for an unknown that is undetermined only against a shape: its channel was seen.
-bool is_tied_to_shape(const FitResult& result, const Identifiability& identifiability,
-                      std::size_t unknown) {
-  const auto& groups = identifiability.undetermined();
-  return std::any_of(groups.begin(), groups.end(), [&](const std::vector<std::size_t>& group) {
-    return std::find(group.begin(), group.end(), unknown) != group.end() &&
-           std::any_of(group.begin(), group.end(),
-                       [&](std::size_t u) { return result.unknowns[u].is_shape; });
-  });
-}
-
 void warn_of_empty_channels(const FitResult& result, const Identifiability& identifiability,
-                            std::vector<std::string>& warnings) {
+                            const Survey& survey, std::vector<std::string>& warnings) {
   for (std::size_t c = 0; c < result.channels.size(); ++c) {
     bool seen = false;
     for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
       const Unknown& unknown = result.unknowns[u];
       if (unknown.is_shape || unknown.channel != c) continue;
-      seen = seen || unknown.fixed || !identifiability.is_undetermined(u) ||
-             is_tied_to_shape(result, identifiability, u);
+      seen = seen || unknown.fixed || !identifiability.is_undetermined(u);
     }
-    if (!seen) {
+    if (!seen && survey.channel_values[c] < result.model.amplitudes().size() + 1) {
       warnings.push_back(fmt::format("channel {} has too few values to determine anything of it",
                                      result.channels[c]));
     }
@@ -339,13 +328,12 @@ void warn_of_misfit(const FitResult& result, std::vector<std::string>& warnings)
 }  // namespace
 
 std::vector<std::string> diagnose(const FitResult& result, const Box& box,
-                                  const Identifiability& identifiability,
-                                  const brdf::Direction<double>& most_grazing_wi) {
+                                  const Identifiability& identifiability, const Survey& survey) {
   std::vector<std::string> warnings;
   if (!result.converged) {
     warnings.emplace_back("the solver stopped before it converged: the parameters may still move");
   }
-  warn_of_empty_channels(result, identifiability, warnings);
+  warn_of_empty_channels(result, identifiability, survey, warnings);
   warn_of_no_freedom(result, identifiability, warnings);
   warn_of_absent_terms(result, identifiability, warnings);
   warn_of_insignificant_terms(result, identifiability, warnings);
@@ -353,7 +341,7 @@ std::vector<std::string> diagnose(const FitResult& result, const Box& box,
   warn_of_undetermined(result, identifiability, warnings);
   warn_of_rivals(result, box, warnings);
   warn_of_albedo(result, identifiability, warnings);
-  if (const auto warning = albedo_warning(result, identifiability, most_grazing_wi)) {
+  if (const auto warning = albedo_warning(result, identifiability, survey.most_grazing_wi)) {
     warnings.push_back(*warning);
   }
   warn_of_bounds(result, box, identifiability, warnings);

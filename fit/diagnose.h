@@ -8,10 +8,8 @@
 
 namespace gonio::fit {
 
-/// One sentence for each doubt, the gravest first. `most_grazing_wi`: of the samples used, the
-/// light that comes at the largest angle.
+/// One sentence for each doubt, the gravest first. `survey` is of the samples used.
 std::vector<std::string> diagnose(const FitResult& result, const Box& box,
-                                  const Identifiability& identifiability,
-                                  const brdf::Direction<double>& most_grazing_wi);
+                                  const Identifiability& identifiability, const Survey& survey);
 
 }  // namespace gonio::fit

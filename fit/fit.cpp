@@ -119,6 +119,13 @@ constexpr double negligible_cost = 1e-16;
 /// quantile of chi-square with one degree of freedom.
 constexpr double same_cost = 1.92;
 
+bool has_equal_terms(const brdf::Model& model) {
+  const auto terms = model.terms();
+  return std::any_of(terms.begin(), terms.end(), [&](const brdf::TermEntry* term) {
+    return std::count(terms.begin(), terms.end(), term) > 1;
+  });
+}
+
 /// The values of those solutions that are other minima than `best`, and as likely.
 std::vector<ParameterValues> rivals_of(const Solution& best, std::span<const Solution> solutions,
                                        const WeightedSamples& samples, const brdf::Model& model) {
@@ -127,6 +134,8 @@ std::vector<ParameterValues> rivals_of(const Solution& best, std::span<const Sol
   const double data = norm_of_data(best.system, best.values.amplitudes);
   const double most = best.cost + same_cost * variance + negligible_cost * data * data / 2;
   std::vector<ParameterValues> rivals;
+  // Two terms of a kind may be exchanged, which makes no other material.
+  if (has_equal_terms(model)) return rivals;
   for (const Solution& other : solutions) {
     if (other.cost > most) continue;
     if (largest_change(model, other.values.shape, best.values.shape) < same_minimum) continue;
@@ -143,9 +152,16 @@ Solution best_of(const WeightedSamples& samples, const Problem& problem, const S
                               final_precision, problem.passes));
     solutions.back().iterations += start.iterations;
   }
-  const auto best =
-      std::min_element(solutions.begin(), solutions.end(),
-                       [](const Solution& a, const Solution& b) { return a.cost < b.cost; });
+  const auto find_best = [&] {
+    return std::min_element(solutions.begin(), solutions.end(),
+                            [](const Solution& a, const Solution& b) { return a.cost < b.cost; });
+  };
+  auto best = find_best();
+  if (const auto twin = twin_of(problem.model.model(), problem.box, best->values)) {
+    solutions.push_back(
+        solve(samples, problem.model, problem.box, loss, *twin, final_precision, problem.passes));
+    best = find_best();
+  }
   best->rivals = rivals_of(*best, solutions, samples, problem.model.model());
   return std::move(*best);
 }
@@ -356,7 +372,7 @@ FitResult fit(const brdf::Model& model, const table::SampleTable& table, const O
                    .warnings = {}};
   add_criteria(assessment, identifiability, *samples, result);
   clear_least_roots(model, box, result.values);
-  result.warnings = diagnose(result, box, identifiability, survey.most_grazing_wi);
+  result.warnings = diagnose(result, box, identifiability, survey);
   return result;
 }
 

@@ -205,8 +205,18 @@ struct Moved {
   std::optional<Step> last_step;  // that is left to take
 };
 
+/// True where a step would gain less than a thousandth of what the noise makes of the cost: the
+/// minimum is a flat valley, and the parameters along it are not determined better than this.
+bool is_flat(const LastEvaluation& evaluation, const VariableState& state, const Box& box,
+             std::size_t used_values) {
+  constexpr double negligible = 1e-3;
+  const double variance =
+      2 * cost_of(evaluation.system()) / double(std::max<std::size_t>(used_values, 1));
+  return gauss_newton_step(evaluation, state, box).gain <= negligible * variance;
+}
+
 Moved move_variables(VariableState& state, const Box& box, double precision,
-                     LastEvaluation& evaluation, ParameterValues& values) {
+                     std::size_t used_values, LastEvaluation& evaluation, ParameterValues& values) {
   evaluation.move_to(values);
   values = evaluation.values();
   if (state.blocks.empty()) return {};
@@ -223,8 +233,9 @@ Moved move_variables(VariableState& state, const Box& box, double precision,
   ceres::Solve(options, &problem, &summary);
   evaluation.move_to(state.values(values, box.amplitudes));
   values = evaluation.values();
-  return {summary.termination_type == ceres::CONVERGENCE ||
-              summary.termination_type == ceres::USER_SUCCESS,
+  const bool converged = summary.termination_type == ceres::CONVERGENCE ||
+                         summary.termination_type == ceres::USER_SUCCESS;
+  return {converged || (evaluation.projectable() && is_flat(evaluation, state, box, used_values)),
           std::max(int(summary.iterations.size()) - 1, 0), last_step.step()};
 }
 
@@ -278,7 +289,8 @@ Solution solve(const WeightedSamples& samples, const BatchModel& model, const Bo
   variables.update(box, evaluation.system(), solution.values);
   for (std::size_t round = 0; round < most_rounds && !settled; ++round) {
     state = variables.moving(solution.values);
-    moved = move_variables(state, box, precision, evaluation, solution.values);
+    moved = move_variables(state, box, precision, samples.survey().used_values, evaluation,
+                           solution.values);
     solution.converged = moved.converged;
     solution.iterations += moved.iterations;
     settled = !variables.update(box, evaluation.system(), solution.values);

@@ -40,6 +40,7 @@ Survey survey_of_rows(const table::SampleTable& table, const table::SampleFilter
       largest = magnitude > largest ? magnitude : largest;
     }
     survey.used_values += measured;
+    survey.channel_values.push_back(measured);
     survey.holes += survey.used_samples - measured;
     survey.largest = std::max(survey.largest, largest);
   }
@@ -77,11 +78,15 @@ Survey survey_of(const table::SampleTable& table, const table::SampleFilter& fil
         survey_of_rows(table, filter, first, std::min(first + rows_per_task, table.size()));
   });
   Survey survey;
+  survey.channel_values.resize(table.values.size());
   if (!table.has_weight()) survey.largest_weight = 1;
   for (const Survey& part : parts) {
     survey.used_samples += part.used_samples;
     survey.used_values += part.used_values;
     survey.holes += part.holes;
+    for (std::size_t c = 0; c < survey.channel_values.size(); ++c) {
+      survey.channel_values[c] += part.channel_values[c];
+    }
     survey.largest = std::max(survey.largest, part.largest);
     survey.largest_weight = std::max(survey.largest_weight, part.largest_weight);
     if (part.most_grazing_wi.z < survey.most_grazing_wi.z) {

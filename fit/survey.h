@@ -16,6 +16,8 @@ struct Survey {
   /// Some channel of some used sample was not measured.
   bool has_holes() const { return holes > 0; }
   std::size_t holes = 0;
+  /// The measured values of each channel.
+  std::vector<std::size_t> channel_values;
   /// The largest |f_r| that is used.
   double largest = 0;
   /// The largest weight of a used sample; 1 where the table carries none.

@@ -101,18 +101,18 @@ double quantile_975(double degrees) {
   return boost::math::quantile(boost::math::students_t(degrees), 0.975);
 }
 
-/// The standard deviation of a parameter. Near 0 of a quadratic scale that of the square is what
-/// the data tells, and its root is taken.
-double stddev_of(double value, double stddev, brdf::Scale scale) {
-  if (scale != brdf::Scale::quadratic || stddev < value / 2) return stddev;
-  return std::sqrt(value * value + 2 * value * stddev) - value;
-}
-
 /// value -+ half_width, on a quadratic scale of the square.
 std::pair<double, double> around(double value, double half_width, brdf::Scale scale) {
   if (scale != brdf::Scale::quadratic) return {value - half_width, value + half_width};
   const double half = 2 * value * half_width;
   return {std::sqrt(std::max(value * value - half, 0.0)), std::sqrt(value * value + half)};
+}
+
+/// Half the width of the interval of one standard deviation: on a quadratic scale the data tell
+/// that of the square, which is another near 0 only.
+double stddev_of(double value, double stddev, brdf::Scale scale) {
+  const auto [from, to] = around(value, stddev, scale);
+  return (to - from) / 2;
 }
 
 /// Cut at the bounds; that of an angle that goes round runs past them, up to a whole period.

@@ -102,8 +102,9 @@ double brute_minimum(const Coefficients& coefficients, const Channel& channel,
   search(lower, upper, first);
   Eigen::VectorXd reach = (upper - lower) * 2 / (first - 1);
   for (int round = 0; round < 30; ++round, reach *= 0.5) {
-    const Eigen::VectorXd middle = best;
-    search((middle - reach).cwiseMax(lower), (middle + reach).cwiseMin(upper), 7);
+    const Eigen::VectorXd from = (best - reach).cwiseMax(lower);
+    const Eigen::VectorXd to = (best + reach).cwiseMin(upper);
+    search(from, to, 7);
   }
   return least;
 }
@@ -183,10 +184,10 @@ TEST(CoupledAmplitudes, AreTheNearestPointOfATriangle) {
 }
 
 TEST(CoupledAmplitudes, LeaveTheCornerWhereAnotherDiffuseShareGains) {
-  // Data that ask for more than a + Rs = 1: Rs alone would stay at 1, and hide Rd.
-  for (const double excess : {1e-12, 1e-6, 1e-3, 0.1, 0.3}) {
-    const Eigen::VectorXd found = nearest_coupled(0.2 + excess, 1 - 0.2 + excess);
-    expect_amplitudes(found, 1, 0.8);
+  // Beyond the edge Rd = 1. Steps from 0 lead to Rs = 1, where Rd counts for nothing and, being
+  // small, hides that less of Rs and all of Rd is better.
+  for (const double excess : {0.2, 0.3, 0.4, 0.5, 0.6}) {
+    expect_amplitudes(nearest_coupled(0.1 + excess, 0.9 + excess), 1, 0.9);
   }
 }
 

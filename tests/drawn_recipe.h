@@ -6,7 +6,9 @@
 #include <map>
 #include <random>
 #include <string>
+#include <vector>
 
+#include "fit/parameters.h"
 #include "fit/scale.h"
 #include "instrument/recipe.h"
 
@@ -61,5 +63,37 @@ class RecipeDraw {
 
   std::mt19937_64 random_;
 };
+
+/// Two channels of a drawn material with noise of 5 %, and its sigma: about 200 samples.
+inline instrument::Recipe two_channel_recipe(const brdf::Model& model, std::uint64_t seed) {
+  instrument::Recipe recipe = RecipeDraw(seed).recipe(model);
+  recipe.channels = {"R", "G"};
+  for (const brdf::ModelParameter& p : model.amplitudes()) recipe.parameters[p.name].pop_back();
+  recipe.incidence_angles_deg = {20, 60};
+  recipe.sample_rotations_deg = {0, 50};
+  recipe.hemisphere = {.theta_step_deg = 20, .phi_step_deg = 60};
+  recipe.mirror_patch->radius_step_deg = 8;
+  recipe.noise = {.relative = 0.05, .floor = 1e-3, .seed = seed};
+  recipe.sigma_columns = true;
+  return recipe;
+}
+
+/// What the recipe is made of, as a fit of the model would say it.
+inline fit::ParameterValues truth_of(const instrument::Recipe& recipe, const brdf::Model& model) {
+  fit::ParameterValues values;
+  for (const brdf::ModelParameter& p : model.shape()) {
+    values.shape.push_back(recipe.parameters.at(p.name).front());
+  }
+  values.amplitudes.resize(Eigen::Index(model.amplitudes().size()),
+                           Eigen::Index(recipe.channels.size()));
+  for (Eigen::Index k = 0; k < values.amplitudes.rows(); ++k) {
+    const std::vector<double>& of_channels =
+        recipe.parameters.at(model.amplitudes()[std::size_t(k)].name);
+    for (Eigen::Index c = 0; c < values.amplitudes.cols(); ++c) {
+      values.amplitudes(k, c) = of_channels[std::size_t(c)];
+    }
+  }
+  return values;
+}
 
 }  // namespace gonio::tests

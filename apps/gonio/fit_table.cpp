@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "apps/gonio/fit_residuals.h"
+#include "brdf/nearest_name.h"
 #include "fit/held_out.h"
 #include "fit/nested.h"
 #include "fit/ranking.h"
@@ -82,6 +83,31 @@ fit::Options options_for(const brdf::Model& model, const table::SampleTable& tab
   return options;
 }
 
+/// ", did you mean 'alpha_x'?", or nothing.
+std::string suggestion(const std::string& name, const std::vector<brdf::Model>& models,
+                       const table::SampleTable& table) {
+  std::vector<std::string> known;
+  for (const brdf::Model& model : models) {
+    for (const fit::Unknown& unknown : fit::unknowns_of(model, table.channels)) {
+      known.push_back(unknown.parameter);
+      known.push_back(unknown.name);
+    }
+  }
+  const std::optional<std::string_view> nearest = brdf::nearest_name(name, known);
+  return nearest ? fmt::format(", did you mean '{}'?", *nearest) : "";
+}
+
+/// Whether a model of these has an amplitude of that name, or one channel's part of it.
+bool is_amplitude(const std::string& name, const std::vector<brdf::Model>& models,
+                  const table::SampleTable& table) {
+  return std::any_of(models.begin(), models.end(), [&](const brdf::Model& model) {
+    const std::vector<fit::Unknown> unknowns = fit::unknowns_of(model, table.channels);
+    return std::any_of(unknowns.begin(), unknowns.end(), [&](const fit::Unknown& unknown) {
+      return !unknown.is_shape && (unknown.parameter == name || unknown.name == name);
+    });
+  });
+}
+
 /// Refuses a setting that no model has the parameter for, and notes those without effect.
 void check_settings(const fit::Options& options, const std::vector<brdf::Model>& models,
                     const table::SampleTable& table, FitMessages& messages) {
@@ -93,14 +119,15 @@ void check_settings(const fit::Options& options, const std::vector<brdf::Model>&
     if (std::none_of(models.begin(), models.end(), [&](const brdf::Model& model) {
           return fit::has_parameter(model, table.channels, name);
         })) {
-      throw std::invalid_argument(
-          fmt::format("no parameter '{}' in the model or models of this fit: 'gonio models MODEL' "
-                      "lists those of a model; one channel's part is written rho_d.{}",
-                      name, table.channels.front()));
+      throw std::invalid_argument(fmt::format(
+          "no parameter '{}' in the model or models of this fit{}: 'gonio models MODEL' "
+          "lists those of a model; one channel's part is written {}.{}",
+          name, suggestion(name, models, table), models.front().amplitudes().front().name,
+          table.channels.front()));
     }
   }
   for (const auto& setting : options.start) {
-    if (setting.parameter.starts_with("rho_")) {
+    if (is_amplitude(setting.parameter, models, table)) {
       messages.note(fmt::format("--start {}: amplitudes are solved for exactly and need no start",
                                 setting.parameter));
     }

@@ -192,11 +192,8 @@ void print_model(const brdf::Model& model) {
 // JSON ---------------------------------------------------------------------------------------
 
 ordered_json json_of(const brdf::TermDescription& term) {
-  return {{"name", term.name},
-          {"kind", kind_of(term)},
-          {"summary", term.summary},
-          {"source", term.source},
-          {"reciprocal", term.reciprocal}};
+  return {{"name", term.name},       {"kind", kind_of(term)}, {"summary", term.summary},
+          {"symbols", term.symbols}, {"source", term.source}, {"reciprocal", term.reciprocal}};
 }
 
 /// An infinite bound is null.
