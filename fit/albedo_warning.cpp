@@ -18,6 +18,8 @@ constexpr double tolerance = 1e-2;
 /// The rough albedo from which on the exact one, which costs about half a millisecond, is looked
 /// at.
 constexpr double worth_a_look = 0.8;
+/// The rough one may miss half of a very anisotropic lobe.
+constexpr double anisotropic_worth_a_look = 0.5;
 
 struct LargestAlbedo {
   double value = 1;
@@ -73,9 +75,9 @@ bool is_worth_a_look(const FitResult& result, std::span<const std::size_t> chann
                      double phi_i) {
   const std::vector<double> basis =
       brdf::rough_basis_albedo(result.model, result.values.shape, theta_i, phi_i);
-  return std::any_of(channels.begin(), channels.end(), [&](std::size_t channel) {
-    return combined(result, channel, basis) > worth_a_look;
-  });
+  const double least = result.model.is_anisotropic() ? anisotropic_worth_a_look : worth_a_look;
+  return std::any_of(channels.begin(), channels.end(),
+                     [&](std::size_t channel) { return combined(result, channel, basis) > least; });
 }
 
 /// Replaces `largest` if an albedo of the given channels is larger for certain.

@@ -153,14 +153,13 @@ void warn_of_undetermined(const FitResult& result, const Identifiability& identi
           : "measure other directions, or fix one with --fix"));
 }
 
-/// How far a rival's parameter is from the fitted one, for it to be another: in standard
-/// deviations, and relative to its size.
-constexpr double other_deviations = 3;
+/// Of the larger value or of the range, what two values of a parameter differ by at least.
 constexpr double other_share = 1e-4;
 
-/// Two materials that look the same from these directions, each with small intervals of its own.
+/// Two materials that look the same from these directions, each with intervals of its own.
 void warn_of_rivals(const FitResult& result, const Box& box, std::vector<std::string>& warnings) {
   for (const ParameterValues& rival : result.rivals) {
+    bool is_outside = false;
     std::vector<std::size_t> others;
     std::vector<std::string> values;
     for (std::size_t u = 0; u < result.unknowns.size(); ++u) {
@@ -170,20 +169,20 @@ void warn_of_rivals(const FitResult& result, const Box& box, std::vector<std::st
       const double there = rival[unknown];
       const double range = box.upper(unknown) - box.lower(unknown);
       const double size = std::isfinite(range) ? range : std::max(std::abs(here), std::abs(there));
-      const double least =
-          std::max(other_deviations * *result.uncertainty.stddev[u], other_share * size);
-      if (std::abs(here - there) <= least) continue;
+      const double difference = std::abs(here - there);
+      if (difference <= std::max(*result.uncertainty.stddev[u], other_share * size)) continue;
       others.push_back(u);
       values.push_back(fmt::format("{} {:.4g}", unknown.name, there));
+      const auto& [lower, upper] = *result.uncertainty.interval95[u];
+      is_outside = is_outside || there < lower || there > upper;
     }
-    const std::vector<std::string> names =
-        names_of(others, result.unknowns, result.channels.size());
-    // One that stands alone goes together with others whose intervals are wide and say so.
-    if (names.size() < 2) continue;
+    // Where the intervals hold the rival too, they say enough.
+    if (!is_outside) continue;
     warnings.push_back(fmt::format(
         "these data cannot tell {} apart: {} explain them as well as the values given, whose "
         "intervals do not know of it; measure other channels or directions, or fix one with --fix",
-        fmt::join(names, ", "), fmt::join(values, ", ")));
+        fmt::join(names_of(others, result.unknowns, result.channels.size()), ", "),
+        fmt::join(values, ", ")));
   }
 }
 

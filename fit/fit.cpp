@@ -138,7 +138,10 @@ std::vector<ParameterValues> rivals_of(const Solution& best, std::span<const Sol
   if (has_equal_terms(model)) return rivals;
   for (const Solution& other : solutions) {
     if (other.cost > most) continue;
-    if (largest_change(model, other.values.shape, best.values.shape) < same_minimum) continue;
+    const auto is_same = [&](const ParameterValues& values) {
+      return largest_change(model, other.values.shape, values.shape) < same_minimum;
+    };
+    if (is_same(best.values) || std::any_of(rivals.begin(), rivals.end(), is_same)) continue;
     rivals.push_back(other.values);
   }
   return rivals;

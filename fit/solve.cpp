@@ -121,11 +121,16 @@ Step gauss_newton_step(const LastEvaluation& evaluation, const VariableState& st
 class LastStepCallback : public ceres::IterationCallback {
  public:
   LastStepCallback(const LastEvaluation& evaluation, const VariableState& state, const Box& box,
-                   double precision)
-      : evaluation_(evaluation), state_(state), box_(box), precision_(precision) {}
+                   double precision, std::size_t used_values)
+      : evaluation_(evaluation),
+        state_(state),
+        box_(box),
+        precision_(precision),
+        used_values_(used_values) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     if (!summary.step_is_successful && summary.iteration > 0) return ceres::SOLVER_CONTINUE;
+    if (is_stalled(summary)) return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
     Step step = gauss_newton_step(evaluation_, state_, box_);
     const double size = step.size();
     const double ratio = previous_size_ > size ? size / previous_size_ : 1;
@@ -139,10 +144,23 @@ class LastStepCallback : public ceres::IterationCallback {
   const std::optional<Step>& step() const { return step_; }
 
  private:
+  /// True after several steps that gained nothing beside the noise: a valley's floor, along which
+  /// the parameters are not determined any better.
+  bool is_stalled(const ceres::IterationSummary& summary) {
+    constexpr double negligible = 1e-6;
+    constexpr int most_idle_steps = 5;
+    const double variance = 2 * summary.cost / double(std::max<std::size_t>(used_values_, 1));
+    const bool is_idle = summary.iteration > 0 && summary.cost_change < negligible * variance;
+    idle_steps_ = is_idle ? idle_steps_ + 1 : 0;
+    return idle_steps_ >= most_idle_steps;
+  }
+
   const LastEvaluation& evaluation_;
   const VariableState& state_;
   const Box& box_;
   double precision_;
+  std::size_t used_values_;
+  int idle_steps_ = 0;
   double previous_size_ = 0;
   std::optional<Step> step_;
 };
@@ -227,7 +245,7 @@ Moved move_variables(VariableState& state, const Box& box, double precision,
   ceres::Problem problem(problem_options);
   ceres::Solver::Options options = solver_options(state, precision);
   add_blocks(state, evaluation, box, norm > 0 ? 1 / norm : 1, problem, options);
-  LastStepCallback last_step(evaluation, state, box, precision);
+  LastStepCallback last_step(evaluation, state, box, precision, used_values);
   if (evaluation.projectable()) options.callbacks.push_back(&last_step);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
