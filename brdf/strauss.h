@@ -67,8 +67,8 @@ S lobe(const S& smoothness, const Direction<D>& wi, const Direction<D>& wo) {
   const S rest = S(D(1)) - smoothness;
   const auto is_lobe = less(S(D(0)), rest);
   // Unit vectors are the mirror image of each other to their last digits only.
-  constexpr double epsilon = std::numeric_limits<D>::epsilon();
-  const S mirror = S(select(less(cosine.log, D(-16 * epsilon * epsilon)), D(0), D(1)));
+  const D epsilon(std::numeric_limits<D>::epsilon());
+  const S mirror = S(select(less(cosine.log, D(D(-16) * epsilon * epsilon)), D(0), D(1)));
   return select(is_lobe, power(cosine, S(S(D(3)) / select(is_lobe, rest, S(D(1))))), mirror);
 }
 
