@@ -93,16 +93,18 @@ TEST(ModelTest, OnlyAnisotropicModelsHaveAFrame) {
   }
 }
 
-TEST(ModelTest, RefusesWhatIsNoModelAndListsWhatThereIs) {
+TEST(ModelTest, RefusesWhatIsNoModelAndListsWhatThereIsOrWhatIsNearest) {
   for (const char* name :
        {"", "+", "word", "ward+", "+ward", "ward+lambert", "lambert+lambert", "ward+ward", "Ward",
         " ward", "lambert + ward", "lambert+ward+", "lambert++ward", "lambert+ward+lambert",
         "ward+ward+ward", "lambert+ward+ward+ward", "lambert+ward+word"}) {
     SCOPED_TRACE(name);
-    EXPECT_THAT(
-        refusal([&] { Model{name}; }),
-        testing::AllOf(HasSubstr("'" + std::string(name) + "'"), HasSubstr("lambert"),
-                       HasSubstr("diffuse+specular+specular"), HasSubstr("ward-gmd-aniso")));
+    EXPECT_THAT(refusal([&] { Model{name}; }),
+                testing::AllOf(HasSubstr("'" + std::string(name) + "'"),
+                               testing::AnyOf(testing::AllOf(HasSubstr("lambert"),
+                                                             HasSubstr("diffuse+specular+specular"),
+                                                             HasSubstr("ward-gmd-aniso")),
+                                              HasSubstr("did you mean '"))));
   }
 }
 
@@ -128,7 +130,7 @@ TEST(ModelTest, AWholeModelStandsAloneAndItsSpecularPartInASum) {
   EXPECT_THAT(refusal([] { Model("lambert+strauss"); }),
               HasSubstr("'strauss' is a whole model and takes no other term"));
   EXPECT_THAT(refusal([] { Model("lambert+oren-nayar"); }),
-              HasSubstr("the first term has to be diffuse and every further one specular"));
+              HasSubstr("'oren-nayar' is a second diffuse term"));
   EXPECT_THAT(refusal([] { Model("lambert+blin-phong"); }),
               HasSubstr("did you mean 'blinn-phong'?"));
 }

@@ -187,13 +187,27 @@ Eigen::MatrixXd plain_jacobian(const PlainModelProblem& plain, const fit::FitRes
   return jacobian;
 }
 
+/// Half the width of sigma's interval of one standard deviation, which is that of its square; else
+/// the standard deviation.
+double reported_deviation(const fit::FitResult& result, const fit::Unknown& unknown,
+                          double deviation) {
+  if (unknown.parameter != "sigma") return deviation;
+  const double value = result.values[unknown];
+  const double of_square = 2 * value * deviation;
+  return (std::sqrt(value * value + of_square) -
+          std::sqrt(std::max(value * value - of_square, 0.0))) /
+         2;
+}
+
 void expect_covariance(const fit::FitResult& result, const Eigen::MatrixXd& expected,
                        double tolerance) {
   const Eigen::MatrixXd& covariance = result.uncertainty.covariance;
   for (Eigen::Index a = 0; a < expected.rows(); ++a) {
     ASSERT_TRUE(result.uncertainty.stddev[std::size_t(a)].has_value());
-    EXPECT_NEAR(*result.uncertainty.stddev[std::size_t(a)], std::sqrt(expected(a, a)),
-                tolerance * std::sqrt(expected(a, a)));
+    const double deviation = std::sqrt(expected(a, a));
+    EXPECT_NEAR(*result.uncertainty.stddev[std::size_t(a)],
+                reported_deviation(result, result.unknowns[std::size_t(a)], deviation),
+                tolerance * deviation);
     for (Eigen::Index b = 0; b < expected.cols(); ++b) {
       EXPECT_NEAR(covariance(a, b), expected(a, b),
                   tolerance * std::sqrt(expected(a, a) * expected(b, b)))
