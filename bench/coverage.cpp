@@ -13,6 +13,7 @@
 
 #include "bench/coverage_report.h"
 #include "bench/cramer_rao.h"
+#include "bench/study_main.h"
 #include "table/json_file.h"
 
 namespace gonio::bench {
@@ -104,13 +105,5 @@ int run(int argc, char** argv) {
 }  // namespace gonio::bench
 
 int main(int argc, char** argv) {
-  try {
-    return gonio::bench::run(argc, argv);
-  } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "gonio_coverage: {}\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "gonio_coverage: {}\n", error.what());
-    return 3;
-  }
+  return gonio::bench::study_main("gonio_coverage", gonio::bench::run, argc, argv);
 }

@@ -19,6 +19,7 @@
 
 #include "bench/curet_study.h"
 #include "bench/measured_data.h"
+#include "bench/study_main.h"
 
 namespace gonio::bench {
 namespace {
@@ -120,13 +121,5 @@ int run(int argc, char** argv) {
 }  // namespace gonio::bench
 
 int main(int argc, char** argv) {
-  try {
-    return gonio::bench::run(argc, argv);
-  } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "curet: {}\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "curet: {}\n", error.what());
-    return 3;
-  }
+  return gonio::bench::study_main("curet", gonio::bench::run, argc, argv);
 }

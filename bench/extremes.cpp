@@ -15,6 +15,7 @@
 #include "bench/extremes_report.h"
 #include "bench/extremes_study.h"
 #include "bench/finite_study.h"
+#include "bench/study_main.h"
 
 namespace gonio::bench {
 namespace {
@@ -96,10 +97,5 @@ int run(int argc, char** argv) {
 }  // namespace gonio::bench
 
 int main(int argc, char** argv) {
-  try {
-    return gonio::bench::run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "extremes: {}\n", error.what());
-    return 3;
-  }
+  return gonio::bench::study_main("extremes", gonio::bench::run, argc, argv);
 }

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "bench/listing_kernels.h"
+#include "bench/study_main.h"
 
 namespace gonio::bench {
 namespace {
@@ -234,10 +235,5 @@ int run(int argc, char** argv) {
 }  // namespace gonio::bench
 
 int main(int argc, char** argv) {
-  try {
-    return gonio::bench::run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "listings: {}\n", error.what());
-    return 3;
-  }
+  return gonio::bench::study_main("listings", gonio::bench::run, argc, argv);
 }

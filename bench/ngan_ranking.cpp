@@ -19,6 +19,7 @@
 
 #include "bench/measured_data.h"
 #include "bench/ngan_study.h"
+#include "bench/study_main.h"
 #include "table/read.h"
 
 namespace gonio::bench {
@@ -186,13 +187,5 @@ int run(int argc, char** argv) {
 }  // namespace gonio::bench
 
 int main(int argc, char** argv) {
-  try {
-    return gonio::bench::run(argc, argv);
-  } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "ngan_ranking: {}\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "ngan_ranking: {}\n", error.what());
-    return 3;
-  }
+  return gonio::bench::study_main("ngan_ranking", gonio::bench::run, argc, argv);
 }

@@ -15,16 +15,12 @@
 
 #include "fit/fit.h"
 #include "instrument/synthesize.h"
+#include "tests/every_metric.h"
 #include "tests/plain_problem.h"
 #include "tests/ward_materials.h"
 
 namespace gonio::tests {
 namespace {
-
-constexpr std::array all_metrics{fit::Metric::l2,        fit::Metric::cosine_l2, fit::Metric::log,
-                                 fit::Metric::cube_root, fit::Metric::relative,  fit::Metric::chi2};
-constexpr std::array all_losses{fit::Loss::none, fit::Loss::huber, fit::Loss::cauchy,
-                                fit::Loss::tukey};
 
 /// Two channels, noise, sigma, weights, holes, masked samples, and every 50th value 20 times too
 /// high. More than 4,096 rows: several tasks of eight chunks each.
@@ -143,15 +139,6 @@ Curvature positive_part(const PlainCurvature& curvature) {
 double difference(const Curvature& a, const Curvature& b) {
   const Eigen::VectorXd sizes = b.diagonal().cwiseSqrt();
   return ((a - b).array() / (sizes * sizes.transpose()).array()).abs().maxCoeff();
-}
-
-std::string name_of(const testing::TestParamInfo<std::tuple<fit::Metric, fit::Loss>>& instance) {
-  std::string name(fit::name(std::get<0>(instance.param)));
-  name += "_" + std::string(fit::name(std::get<1>(instance.param)));
-  for (char& c : name) {
-    if (c == '-') c = '_';
-  }
-  return name;
 }
 
 class JointSystemUnder : public testing::TestWithParam<std::tuple<fit::Metric, fit::Loss>> {
@@ -277,7 +264,7 @@ TEST_P(JointSystemUnder, HasAFewRowsHoweverManySamplesThereAre) {
 INSTANTIATE_TEST_SUITE_P(Every, JointSystemUnder,
                          testing::Combine(testing::ValuesIn(all_metrics),
                                           testing::ValuesIn(all_losses)),
-                         name_of);
+                         [](const auto& instance) { return name_of(instance); });
 
 TEST(ScaledLoss, IsTheOneOfCeres) {
   // Ceres takes the square of the residual and a scale; rho[0..2] are the loss and its derivatives.

@@ -9,17 +9,13 @@
 
 #include "fit/fit.h"
 #include "instrument/synthesize.h"
+#include "tests/every_metric.h"
 #include "tests/plain_minimum.h"
 #include "tests/plain_problem.h"
 #include "tests/ward_materials.h"
 
 namespace gonio::tests {
 namespace {
-
-constexpr std::array all_metrics{fit::Metric::l2,        fit::Metric::cosine_l2, fit::Metric::log,
-                                 fit::Metric::cube_root, fit::Metric::relative,  fit::Metric::chi2};
-constexpr std::array all_losses{fit::Loss::none, fit::Loss::huber, fit::Loss::cauchy,
-                                fit::Loss::tukey};
 
 /// Rolled brass in two channels with 2 % + 1e-3 noise; 1 % of the readings are spoilt by a factor
 /// of 3 or 1/3. Weights and holes too.
@@ -51,15 +47,6 @@ double scale_for(const std::vector<PlainValue>& values, fit::Metric metric) {
     magnitudes.push_back(std::abs(double(value.residual(metric, truth))));
   }
   return 4 * 1.4826 * plain_median(magnitudes);
-}
-
-std::string name_of(const testing::TestParamInfo<std::tuple<fit::Metric, fit::Loss>>& instance) {
-  std::string name(fit::name(std::get<0>(instance.param)));
-  name += "_" + std::string(fit::name(std::get<1>(instance.param)));
-  for (char& c : name) {
-    if (c == '-') c = '_';
-  }
-  return name;
 }
 
 class AFitUnder : public testing::TestWithParam<std::tuple<fit::Metric, fit::Loss>> {
@@ -144,7 +131,7 @@ TEST_P(AFitUnder, HasTheSameBitsForAnyNumberOfThreads) {
 INSTANTIATE_TEST_SUITE_P(Every, AFitUnder,
                          testing::Combine(testing::ValuesIn(all_metrics),
                                           testing::ValuesIn(all_losses)),
-                         name_of);
+                         [](const auto& instance) { return name_of(instance); });
 
 TEST(RelativeFloors, AreOnePerCentOfTheMedianMagnitudeThatIsNotZero) {
   table::SampleTable table = noisy_brass();

@@ -17,15 +17,11 @@
 #include "instrument/synthesize.h"
 #include "table/parallel.h"
 #include "tests/drawn_recipe.h"
+#include "tests/every_metric.h"
 #include "tests/plain_model_problem.h"
 
 namespace gonio::tests {
 namespace {
-
-constexpr std::array all_metrics{fit::Metric::l2,        fit::Metric::cosine_l2, fit::Metric::log,
-                                 fit::Metric::cube_root, fit::Metric::relative,  fit::Metric::chi2};
-constexpr std::array all_losses{fit::Loss::none, fit::Loss::huber, fit::Loss::cauchy,
-                                fit::Loss::tukey};
 
 /// Everything to look at one noisy table under one metric.
 class Problem {

@@ -10,6 +10,7 @@
 #include "fit/fit.h"
 #include "instrument/synthesize.h"
 #include "table/parallel.h"
+#include "tests/every_metric.h"
 #include "tests/ward_materials.h"
 
 namespace gonio::tests {
@@ -47,21 +48,12 @@ TEST_P(ALossAgainstOutliers, RecoversATableWithoutNoise) {
   }
 }
 
-std::string name_of(const testing::TestParamInfo<std::tuple<fit::Loss, fit::Metric>>& instance) {
-  std::string name(fit::name(std::get<0>(instance.param)));
-  name += "_" + std::string(fit::name(std::get<1>(instance.param)));
-  for (char& c : name) {
-    if (c == '-') c = '_';
-  }
-  return name;
-}
-
 INSTANTIATE_TEST_SUITE_P(Every, ALossAgainstOutliers,
                          testing::Combine(testing::ValuesIn(robust_losses),
                                           testing::Values(fit::Metric::l2, fit::Metric::cosine_l2,
                                                           fit::Metric::log, fit::Metric::cube_root,
                                                           fit::Metric::relative)),
-                         name_of);
+                         [](const auto& instance) { return name_of(instance); });
 
 /// Two incidences on ivory plastic, with noise of 2 % + 1e-3.
 instrument::Recipe plastic_recipe() {
