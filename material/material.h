@@ -84,6 +84,17 @@ struct FitSummary {
   std::vector<std::string> warnings;
 };
 
+/// Of a material that was converted from another one: from what, how, and the error that remains.
+struct ConversionRecord {
+  std::string from;    // "blinn-phong, exponent 50, ..": in words
+  std::string method;  // closed-form or best-fit
+  std::string metric;  // what the best fit minimised
+  /// As in Difference (comparison.h).
+  double peak;
+  double rms;
+  double albedo;
+};
+
 struct MaterialProvenance {
   std::string table;
   std::string sha256;
@@ -98,6 +109,7 @@ struct Material {
   /// In the model's order: per term its amplitudes, then its shape.
   std::vector<ParameterValue> parameters;
   std::optional<FitSummary> fit;
+  std::optional<ConversionRecord> conversion;
   std::optional<MaterialProvenance> provenance;
 };
 

@@ -126,6 +126,16 @@ std::vector<ParameterValue> in_order(const brdf::Model& model,
   return ordered;
 }
 
+ConversionRecord read_conversion(const JsonField& field) {
+  const JsonField error = field.member("error");
+  return {.from = field.member("from").text(),
+          .method = field.member("method").text(),
+          .metric = field.member("metric").text(),
+          .peak = error.member("peak").number(),
+          .rms = error.member("rms").number(),
+          .albedo = error.member("albedo").number()};
+}
+
 MaterialProvenance read_provenance(const JsonField& field) {
   const auto text = [&](std::string_view key) {
     const auto member = field.find(key);
@@ -152,6 +162,9 @@ Material material_of(const table::JsonFile& file) {
   require_suitable(material, model, parameters);
   material.parameters = in_order(model, material.parameters);
   if (const auto fit = root.find("fit")) material.fit = read_fit_summary(*fit);
+  if (const auto conversion = root.find("conversion")) {
+    material.conversion = read_conversion(*conversion);
+  }
   if (const auto provenance = root.find("provenance")) {
     material.provenance = read_provenance(*provenance);
   }
@@ -198,6 +211,14 @@ ordered_json parameters_of(const Material& material) {
   return parameters;
 }
 
+ordered_json json_of(const ConversionRecord& conversion) {
+  return {{"from", conversion.from},
+          {"method", conversion.method},
+          {"metric", conversion.metric},
+          {"error",
+           {{"peak", conversion.peak}, {"rms", conversion.rms}, {"albedo", conversion.albedo}}}};
+}
+
 ordered_json json_of(const MaterialProvenance& provenance) {
   return {{"table", provenance.table},
           {"sha256", provenance.sha256},
@@ -222,6 +243,7 @@ ordered_json to_json(const Material& material) {
   json["channels"] = material.channels;
   json["parameters"] = parameters_of(material);
   if (material.fit) json["fit"] = json_of(*material.fit);
+  if (material.conversion) json["conversion"] = json_of(*material.conversion);
   if (material.provenance) json["provenance"] = json_of(*material.provenance);
   return json;
 }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "apps/gonio/command.h"
+#include "apps/gonio/polar_angles.h"
 #include "brdf/albedo.h"
 #include "material/evaluate.h"
 #include "material/material_json.h"
@@ -29,26 +30,6 @@ struct AlbedoRow {
   double theta_deg;
   brdf::Albedo albedo;
 };
-
-std::vector<double> parse_theta(std::string_view text) {
-  std::vector<double> angles;
-  for (std::string_view rest = text;;) {
-    const std::size_t comma = rest.find(',');
-    const auto theta = parse_number(rest.substr(0, comma));
-    if (!theta) {
-      throw std::invalid_argument(
-          fmt::format("--theta {}: expected polar angles in degrees, such as 0,45,80", text));
-    }
-    if (!(*theta >= 0 && *theta < 90)) {
-      throw std::invalid_argument(fmt::format(
-          "--theta {}: {} degrees, expected 0 to less than 90, measured from the surface normal",
-          text, *theta));
-    }
-    angles.push_back(*theta);
-    if (comma == std::string_view::npos) return angles;
-    rest.remove_prefix(comma + 1);
-  }
-}
 
 double parse_phi(std::string_view text) {
   const auto phi = parse_number(text);
@@ -142,7 +123,7 @@ bool note_imprecision(const std::vector<AlbedoRow>& rows, double tolerance) {
 
 void albedo(const AlbedoOptions& options, Invocation& invocation) {
   constexpr double radians_per_degree = std::numbers::pi / 180;
-  const std::vector<double> angles = parse_theta(options.theta);
+  const std::vector<double> angles = parse_polar_angles("--theta", options.theta);
   const double phi_deg = parse_phi(options.phi);
   const double tolerance = parse_tolerance(options.tolerance);
   const auto material = material::read_material(options.material);

@@ -21,6 +21,7 @@ struct Invocation {
 
 // Each adds its subcommand with a callback; the callback may set invocation.exit_status or throw.
 void add_albedo_command(CLI::App& app, Invocation& invocation);
+void add_convert_command(CLI::App& app, Invocation& invocation);
 void add_eval_command(CLI::App& app, Invocation& invocation);
 void add_fit_command(CLI::App& app, Invocation& invocation);
 void add_info_command(CLI::App& app, Invocation& invocation);

@@ -1,0 +1,73 @@
+// One material standing in for another: on which directions they are compared, and how far they are
+// apart.
+//
+// The directions are stated incidence angles and, for each, viewing directions that show the lobe
+// (brdf/lobe_directions.h). What is compared is the reflected radiance f_r cos_i for a light of
+// unit irradiance, which a picture shows.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "brdf/bound_model.h"
+#include "table/sample_table.h"
+
+namespace gonio::material {
+
+/// Writes f_r of every channel in 1/sr for a pair of unit vectors wi, wo.
+using Reflectance = std::function<void(const brdf::Direction<double>&,
+                                       const brdf::Direction<double>&, std::span<double>)>;
+
+/// The reflectance of a model with its values, which must outlive it.
+Reflectance reflectance_of(const brdf::BoundModel& model);
+
+/// For which light two materials are compared.
+struct Incidence {
+  /// Polar angles in degrees, each at least 0 and below 90.
+  std::vector<double> theta_deg = {0, 15, 30, 45, 60, 75};
+  /// Azimuths in degrees: one for isotropic materials, several for others.
+  std::vector<double> phi_deg = {0};
+};
+
+/// Four azimuths in a quarter turn if the model has a tangent, else one.
+Incidence default_incidence(const brdf::Model& model);
+
+/// The pairs of directions on which materials are compared, with their solid angles as weights, and
+/// the values of a reflectance on them. Throws std::invalid_argument for an angle out of range.
+table::SampleTable sample(const Reflectance& reflectance, std::span<const std::string> channels,
+                          const Incidence& incidence);
+
+/// Where the largest difference is.
+struct WorstPlace {
+  double theta_i_deg;
+  double theta_o_deg;
+  std::string channel;
+};
+
+/// How far a stand-in is from a material; all over the same directions, viewers up to 80 deg. The
+/// reflected radiance is f_r cos_i.
+struct Difference {
+  /// The largest difference of reflected radiance in any channel, per largest radiance of the
+  /// material in that channel.
+  double peak;
+  WorstPlace where;
+  /// The root mean square of the difference, weighted by solid angle, per root mean square of the
+  /// material's radiance; over all channels.
+  double rms;
+  /// The largest difference of directional albedo in any channel, signed: the stand-in's less the
+  /// material's. By sums over the directions, good to 2e-3 of the albedo.
+  double albedo;
+};
+
+/// The largest polar angle of the viewer at which the radiances are compared, in degrees, as a fit
+/// does.
+inline constexpr double largest_compared_theta_deg = 80;
+
+/// `material` as sample() gives it; the stand-in is evaluated on its directions. All 0 where both
+/// are black, and infinite where only the material is.
+Difference difference(const table::SampleTable& material, const Reflectance& stand_in);
+
+}  // namespace gonio::material
