@@ -99,7 +99,7 @@ table::SampleTable sample(const Reflectance& reflectance, std::span<const std::s
 Difference difference(const table::SampleTable& material, const Reflectance& stand_in) {
   const auto values = values_on(material, stand_in);
   const table::SampleFilter is_compared(material, largest_compared_theta_deg);
-  Difference result{.peak = 0, .where = {}, .rms = 0, .albedo = 0};
+  Difference result;
   double squared_difference = 0;
   double squared_radiance = 0;
   for (std::size_t c = 0; c < material.channels.size(); ++c) {

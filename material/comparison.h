@@ -42,8 +42,8 @@ table::SampleTable sample(const Reflectance& reflectance, std::span<const std::s
 
 /// Where the largest difference is.
 struct WorstPlace {
-  double theta_i_deg;
-  double theta_o_deg;
+  double theta_i_deg = 0;
+  double theta_o_deg = 0;
   std::string channel;
 };
 
@@ -52,14 +52,14 @@ struct WorstPlace {
 struct Difference {
   /// The largest difference of reflected radiance in any channel, per largest radiance of the
   /// material in that channel.
-  double peak;
-  WorstPlace where;
+  double peak = 0;
+  WorstPlace where = {};
   /// The root mean square of the difference, weighted by solid angle, per root mean square of the
   /// material's radiance; over all channels.
-  double rms;
+  double rms = 0;
   /// The largest difference of directional albedo in any channel, signed: the stand-in's less the
   /// material's. By sums over the directions, good to 2e-3 of the albedo.
-  double albedo;
+  double albedo = 0;
 };
 
 /// The largest polar angle of the viewer at which the radiances are compared, in degrees, as a fit

@@ -131,7 +131,7 @@ void Definition::pass_over(const MtlStatement& statement) {
 std::array<double, 3> Definition::color(Which which, std::vector<std::string>& notes) const {
   const Known& known = known_[which];
   if (known.count == 0) {
-    notes.push_back(which == kd ? "no Kd: the diffuse part is black" : "no Ks: no highlight");
+    notes.emplace_back(which == kd ? "no Kd: the diffuse part is black" : "no Ks: no highlight");
     return {};
   }
   const std::array<double, 3> color = mtl_color(known.statement, known.keyword);

@@ -82,6 +82,7 @@ int run(int argc, char** argv) {
   add_eval_command(app, invocation);
   add_albedo_command(app, invocation);
   add_convert_command(app, invocation);
+  add_export_command(app, invocation);
   add_models_command(app, invocation);
   add_synth_command(app, invocation);
   const std::vector<CLI::App*> commands = app.get_subcommands([](CLI::App*) { return true; });

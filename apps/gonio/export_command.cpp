@@ -1,0 +1,112 @@
+// gonio export: a material as a renderer or a shader takes it, with what was lost.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include "apps/gonio/command.h"
+#include "export/account.h"
+#include "export/target.h"
+#include "material/material_json.h"
+#include "table/output_file.h"
+
+namespace gonio::app {
+namespace {
+
+struct ExportOptions {
+  std::string material;
+  std::string to;
+  std::string output;
+  bool json = false;
+};
+
+/// The path of a file of the export, beside the one that the user named.
+std::string path_of(const std::string& output, const exports::ExportedFile& file) {
+  if (file.suffix.empty()) return output;
+  const std::filesystem::path path(output);
+  return path.parent_path() / (path.stem().string() + file.suffix);
+}
+
+nlohmann::ordered_json json_of(const exports::Exported& exported, const exports::Target& target,
+                               const std::vector<std::string>& paths) {
+  return {{"target", target.name},
+          {"files", paths},
+          {"stand_in", exported.fitted_as},
+          {"loss",
+           {{"peak", exported.loss.peak},
+            {"rms", exported.loss.rms},
+            {"albedo", exported.loss.albedo}}},
+          {"warnings", exported.warnings}};
+}
+
+/// What the user has to know, to stdout or beside the exported text.
+std::string report(const exports::Exported& exported, const std::vector<std::string>& paths) {
+  std::string text;
+  for (const std::string& path : paths) text += fmt::format("{}\n", path);
+  text += fmt::format("  stand-in: {}\n  loss of reflected radiance: {}\n", exported.fitted_as,
+                      exports::loss_text(exported.loss));
+  for (const std::string& warning : exported.warnings) {
+    text += fmt::format("  warning: {}\n", warning);
+  }
+  return text;
+}
+
+void export_material(const ExportOptions& options) {
+  const exports::Target& target = exports::target_named(options.to);
+  const material::Material material = material::read_material(options.material);
+  const exports::Exported exported =
+      target.write(material, std::filesystem::path(options.output).stem().string());
+  if (options.output.empty()) {
+    if (options.json || exported.files.size() > 1) {
+      throw std::invalid_argument(
+          fmt::format("export --to {}: -o FILE is missing: {}", target.name,
+                      options.json ? "stdout is for the report" : "there is more than one file"));
+    }
+    print(exported.files.front().text);
+    std::string notes = report(exported, {});
+    notes.pop_back();
+    print_note(notes);
+    return;
+  }
+  std::vector<std::string> paths;
+  for (const exports::ExportedFile& file : exported.files) {
+    paths.push_back(path_of(options.output, file));
+    table::write_file(paths.back(), file.text);
+  }
+  if (options.json) {
+    print_json(json_of(exported, target, paths));
+  } else {
+    print(report(exported, paths));
+  }
+}
+
+std::string list_of_targets() {
+  std::string text = "Targets:\n";
+  for (const exports::Target& target : exports::all_targets()) {
+    text += fmt::format("  {:<14}{}\n", target.name, target.summary);
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app, Invocation& /*invocation*/) {
+  auto options = std::make_shared<ExportOptions>();
+  CLI::App* command = app.add_subcommand(
+      "export", "Write a material for a renderer or a shader, and say what was lost");
+  std::vector<std::string> names;
+  for (const exports::Target& target : exports::all_targets()) names.push_back(target.name);
+  command->add_option("MATERIAL", options->material, "The material (JSON)")->required();
+  command->add_option("--to", options->to, fmt::format("{}", fmt::join(names, ", ")))
+      ->required()
+      ->type_name("TARGET");
+  command->add_option("-o,--output", options->output,
+                      "The file to write; without it, to stdout, and the loss to stderr");
+  command->add_flag("--json", options->json, "Print what was written and lost as JSON");
+  command->footer(list_of_targets());
+  command->callback([options] { export_material(*options); });
+}
+
+}  // namespace gonio::app
