@@ -93,17 +93,24 @@ material::Incidence incidence_for(const brdf::Model& model, double tangent) {
 
 }  // namespace
 
-RgbChannels rgb_channels(const material::Material& material) {
+std::optional<RgbChannels> find_rgb_channels(const material::Material& material) {
   const std::vector<std::string>& channels = material.channels;
   if (channels.size() == 1) {
-    return {{0, 0, 0}, fmt::format("R, G and B are the one channel '{}'", channels[0])};
+    return RgbChannels{{0, 0, 0}, fmt::format("R, G and B are the one channel '{}'", channels[0])};
   }
-  if (channels.size() == 3) {
-    if (const auto order = by_name(channels)) return {*order, statement_of(channels, *order, "")};
-    if (const auto order = by_wavelength(channels)) {
-      return {*order, statement_of(channels, *order, ", by wavelength")};
-    }
+  if (channels.size() != 3) return {};
+  if (const auto order = by_name(channels)) {
+    return RgbChannels{*order, statement_of(channels, *order, "")};
   }
+  if (const auto order = by_wavelength(channels)) {
+    return RgbChannels{*order, statement_of(channels, *order, ", by wavelength")};
+  }
+  return {};
+}
+
+RgbChannels rgb_channels(const material::Material& material) {
+  if (auto found = find_rgb_channels(material)) return *std::move(found);
+  const std::vector<std::string>& channels = material.channels;
   constexpr std::size_t most_named = 8;
   const std::vector<std::string> named(
       channels.begin(), channels.begin() + std::ptrdiff_t(std::min(most_named, channels.size())));

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,11 @@ struct RgbChannels {
 };
 
 /// Three channels R, G and B in any order and case; three wavelengths ("630nm", "465 nm"), the
-/// longest of which is R and the shortest B; or a single channel for all three. Throws
-/// table::FileError for anything else.
+/// longest of which is R and the shortest B; or a single channel for all three. Nothing for
+/// anything else.
+std::optional<RgbChannels> find_rgb_channels(const material::Material& material);
+
+/// The same; throws table::FileError if there are none.
 RgbChannels rgb_channels(const material::Material& material);
 
 /// A material bound to its values, with the directions and values that stand-ins are compared with.

@@ -1,5 +1,6 @@
 // A material as a shader function: HLSL or GLSL with the parameters in it (shader/compose.h). Any
-// model and any number of channels; nothing is lost but what float arithmetic rounds.
+// model and any number of channels; nothing is lost but what float arithmetic rounds. Three
+// channels that are red, green and blue (rgb.h) come in this order.
 #pragma once
 
 #include "export/exported.h"

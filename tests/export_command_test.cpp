@@ -59,6 +59,18 @@ TEST(ExportCommand, PrintsTheFileToStdoutAndTheLossToStderr) {
   EXPECT_THAT(result.err, AllOf(HasSubstr("stand-in: exact"), HasSubstr("loss")));
 }
 
+TEST(ExportCommand, GivesAShaderItsWavelengthsAsRedGreenBlue) {
+  const TemporaryFolder folder;
+  const std::string paint =
+      folder.write("paint.json", R"({"format": "gonio-material", "version": 1, "model": "lambert",
+      "name": "paint", "channels": ["465nm", "525nm", "630nm"],
+      "parameters": {"rho_d": {"value": [0.1, 0.2, 0.3]}}})");
+  const auto result = run_gonio({"export", paint, "--to", "glsl"});
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_THAT(result.out,
+              AllOf(HasSubstr("vec3(0.3, 0.2, 0.1)"), HasSubstr("channels 630nm, 525nm, 465nm")));
+}
+
 TEST(ExportCommand, NamesTheSecondFileOfATargetAfterTheFirst) {
   const TemporaryFolder folder;
   const TemporaryFolder out;

@@ -210,11 +210,13 @@ TEST(ExportRadiance, TakesPlastic2ForALobeTooNarrowForPlastic) {
   EXPECT_THAT(exported.warnings, IsEmpty());
 }
 
-// Strauss with s = 1 is a mirror, of which no direction but one shows anything.
+// Most of what this lacquer reflects, Fresnel's factor adds towards grazing; Ward's lobe has none.
 TEST(ExportRadiance, SaysWhenNothingIsAlike) {
-  const Exported exported = to_radiance(
-      rgb_material_of("strauss", {{"c", {0.5, 0.4, 0.1}}, {"s", {1}}, {"m", {1}}, {"t", {0}}}));
+  const Exported exported = to_radiance(rgb_material_of(
+      "ashikhmin-shirley", {{"Rd", {0.3, 0.3, 0.3}}, {"Rs", {0.05, 0.05, 0.05}}, {"n", {200}}}));
+  EXPECT_GT(exported.loss.rms, 0.5);
   EXPECT_THAT(exported.warnings, Contains(HasSubstr("nothing like this model")));
+  EXPECT_THAT(exported.files[0].text, HasSubstr("# warning: the target has nothing like"));
 }
 
 TEST(ExportRadiance, KeepsAnyNameOnItsCommentLine) {
