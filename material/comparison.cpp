@@ -15,12 +15,31 @@ namespace {
 
 using brdf::Direction;
 
-void add_directions(table::SampleTable& table, const Direction<double>& wi) {
-  for (const auto& [wo, solid_angle] : brdf::lobe_directions(wi)) {
-    table.wi.push_back(wi);
-    table.wo.push_back(wo);
-    table.weight.push_back(solid_angle);
+void add_sample(table::SampleTable& table, const Direction<double>& wi, const Direction<double>& wo,
+                double weight) {
+  table.wi.push_back(wi);
+  table.wo.push_back(wo);
+  table.weight.push_back(weight);
+}
+
+/// The viewers at the largest angle that is compared: there wide lobes differ most. They stand for
+/// no solid angle; a weight of 0 would leave them out.
+void add_rim(table::SampleTable& table, const Direction<double>& wi, bool both_sides) {
+  constexpr double no_weight = 1e-12;
+  const double plane_of_incidence = std::atan2(wi.y, wi.x) * (180 / std::numbers::pi);
+  for (int degrees = 0; degrees < (both_sides ? 360 : 181); degrees += 5) {
+    add_sample(
+        table, wi,
+        brdf::direction_from_degrees(largest_compared_theta_deg, plane_of_incidence + degrees),
+        no_weight);
   }
+}
+
+void add_directions(table::SampleTable& table, const Direction<double>& wi, bool both_sides) {
+  for (const auto& [wo, solid_angle] : brdf::lobe_directions(wi, {.one_side = !both_sides})) {
+    add_sample(table, wi, wo, solid_angle);
+  }
+  add_rim(table, wi, both_sides);
 }
 
 /// f_r at every sample of the table, [channel][sample].
@@ -46,9 +65,11 @@ double share(double part, double whole) {
   return whole > 0 ? part / whole : std::numeric_limits<double>::infinity();
 }
 
-bool is_same_light(const table::SampleTable& table, std::size_t i, std::size_t j) {
-  return table.wi.x[i] == table.wi.x[j] && table.wi.y[i] == table.wi.y[j] &&
-         table.wi.z[i] == table.wi.z[j];
+/// True where the samples of another light begin: with its mirror direction, as add_directions()
+/// has them.
+bool begins_a_light(const table::SampleTable& table, std::size_t i) {
+  return table.wo.x[i] == -table.wi.x[i] && table.wo.y[i] == -table.wi.y[i] &&
+         table.wo.z[i] == table.wi.z[i];
 }
 
 /// The signed difference of albedo that is largest, over the lights of the table.
@@ -58,7 +79,7 @@ double largest_albedo_difference(const table::SampleTable& table, std::span<cons
   double sum = 0;
   for (std::size_t i = 0; i < table.size(); ++i) {
     sum += (stand_in[i] - material[i]) * table.wo.z[i] * table.weight[i];
-    if (i + 1 < table.size() && is_same_light(table, i, i + 1)) continue;
+    if (i + 1 < table.size() && !begins_a_light(table, i + 1)) continue;
     if (std::abs(sum) > std::abs(largest)) largest = sum;
     sum = 0;
   }
@@ -74,7 +95,10 @@ Reflectance reflectance_of(const brdf::BoundModel& model) {
 
 Incidence default_incidence(const brdf::Model& model) {
   Incidence incidence;
-  if (model.is_anisotropic()) incidence.phi_deg = {0, 30, 60, 90};
+  if (model.is_anisotropic()) {
+    incidence.phi_deg = {0, 30, 60, 90};
+    incidence.both_sides = true;
+  }
   return incidence;
 }
 
@@ -83,12 +107,12 @@ table::SampleTable sample(const Reflectance& reflectance, std::span<const std::s
   table::SampleTable table;
   table.channels.assign(channels.begin(), channels.end());
   for (const double theta_deg : incidence.theta_deg) {
-    if (!(theta_deg >= 0 && theta_deg < 90)) {
-      throw std::invalid_argument(
-          fmt::format("an incidence angle of {} degrees: expected 0 to less than 90", theta_deg));
+    if (!(theta_deg >= 0 && theta_deg <= largest_compared_theta_deg)) {
+      throw std::invalid_argument(fmt::format("light from {} degrees: expected 0 to {:g}",
+                                              theta_deg, largest_compared_theta_deg));
     }
     for (const double phi_deg : incidence.phi_deg) {
-      add_directions(table, brdf::direction_from_degrees(theta_deg, phi_deg));
+      add_directions(table, brdf::direction_from_degrees(theta_deg, phi_deg), incidence.both_sides);
     }
   }
   table.mask.assign(table.wi.size(), table::MaskReason::none);
@@ -100,12 +124,11 @@ Difference difference(const table::SampleTable& material, const Reflectance& sta
   const auto values = values_on(material, stand_in);
   const table::SampleFilter is_compared(material, largest_compared_theta_deg);
   Difference result;
+  double brightest = 0;
+  double worst = 0;
   double squared_difference = 0;
   double squared_radiance = 0;
   for (std::size_t c = 0; c < material.channels.size(); ++c) {
-    double brightest = 0;
-    double worst = 0;
-    std::size_t worst_sample = 0;
     for (std::size_t i = 0; i < material.size(); ++i) {
       if (!is_compared(i)) continue;
       const double radiance = material.values[c][i] * material.wi.z[i];
@@ -113,19 +136,16 @@ Difference difference(const table::SampleTable& material, const Reflectance& sta
       brightest = std::max(brightest, radiance);
       if (apart > worst) {
         worst = apart;
-        worst_sample = i;
+        result.where = {degrees_of(material.wi.z[i]), degrees_of(material.wo.z[i]),
+                        material.channels[c]};
       }
       squared_difference += apart * apart * material.weight[i];
       squared_radiance += radiance * radiance * material.weight[i];
     }
-    if (share(worst, brightest) > result.peak) {
-      result.peak = share(worst, brightest);
-      result.where = {degrees_of(material.wi.z[worst_sample]),
-                      degrees_of(material.wo.z[worst_sample]), material.channels[c]};
-    }
     const double albedo = largest_albedo_difference(material, material.values[c], values[c]);
     if (std::abs(albedo) > std::abs(result.albedo)) result.albedo = albedo;
   }
+  result.peak = share(worst, brightest);
   result.rms = std::sqrt(share(squared_difference, squared_radiance));
   return result;
 }

@@ -24,16 +24,23 @@ using Reflectance = std::function<void(const brdf::Direction<double>&,
 /// The reflectance of a model with its values, which must outlive it.
 Reflectance reflectance_of(const brdf::BoundModel& model);
 
-/// For which light two materials are compared.
+/// For which light two materials are compared, and with which viewers.
 struct Incidence {
-  /// Polar angles in degrees, each at least 0 and below 90.
+  /// Polar angles in degrees, each at least 0 and at most largest_compared_theta_deg.
   std::vector<double> theta_deg = {0, 15, 30, 45, 60, 75};
   /// Azimuths in degrees: one for isotropic materials, several for others.
   std::vector<double> phi_deg = {0};
+  /// Viewers on both sides of the plane of incidence, and not on one side for both: needed where a
+  /// material has a tangent.
+  bool both_sides = false;
 };
 
-/// Four azimuths in a quarter turn if the model has a tangent, else one.
+/// Four azimuths in a quarter turn and viewers on both sides if the model has a tangent.
 Incidence default_incidence(const brdf::Model& model);
+
+/// The largest polar angle of light and viewer at which the radiances are compared, in degrees, as
+/// a fit does.
+inline constexpr double largest_compared_theta_deg = 80;
 
 /// The pairs of directions on which materials are compared, with their solid angles as weights, and
 /// the values of a reflectance on them. Throws std::invalid_argument for an angle out of range.
@@ -51,7 +58,7 @@ struct WorstPlace {
 /// reflected radiance is f_r cos_i.
 struct Difference {
   /// The largest difference of reflected radiance in any channel, per largest radiance of the
-  /// material in that channel.
+  /// material in its brightest one.
   double peak = 0;
   WorstPlace where = {};
   /// The root mean square of the difference, weighted by solid angle, per root mean square of the
@@ -61,10 +68,6 @@ struct Difference {
   /// material's. By sums over the directions, good to 2e-3 of the albedo.
   double albedo = 0;
 };
-
-/// The largest polar angle of the viewer at which the radiances are compared, in degrees, as a fit
-/// does.
-inline constexpr double largest_compared_theta_deg = 80;
 
 /// `material` as sample() gives it; the stand-in is evaluated on its directions. All 0 where both
 /// are black, and infinite where only the material is.

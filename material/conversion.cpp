@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "material/evaluate.h"
 #include "material/nearest_model.h"
+#include "table/file_error.h"
 
 namespace gonio::material {
 namespace {
@@ -93,40 +96,116 @@ fit::Metric require_usable(fit::Metric metric) {
       "log, cube-root or relative");
 }
 
-/// What the two ways of converting share: judging the result and saying where it comes from.
-Conversion judged(NearestMaterial nearest, const table::SampleTable& samples,
-                  const ConversionOptions& options) {
-  const brdf::BoundModel stand_in = bind(nearest.material);
-  Conversion conversion{.material = std::move(nearest.material),
-                        .metric_error = nearest.metric_error,
-                        .remaining = difference(samples, reflectance_of(stand_in))};
-  conversion.material.conversion = ConversionRecord{.from = {},
-                                                    .method = std::string(name(options.method)),
-                                                    .metric = std::string(name(options.metric)),
-                                                    .peak = conversion.remaining.peak,
-                                                    .rms = conversion.remaining.rms,
-                                                    .albedo = conversion.remaining.albedo};
-  return conversion;
+/// The lights for both models.
+Incidence incidence_for(const brdf::Model& from, const brdf::Model& to,
+                        const ConversionOptions& options) {
+  Incidence incidence = default_incidence(from.is_anisotropic() ? from : to);
+  incidence.theta_deg = options.theta_deg;
+  return incidence;
 }
 
-/// The closed form as it is.
+/// A fit's own complaint as one about the conversion.
+NearestMaterial fitted(const table::SampleTable& samples, const brdf::Model& model,
+                       fit::Metric metric, std::span<const fit::ParameterSetting> fixed,
+                       std::span<const fit::ParameterSetting> start = {}) {
+  try {
+    return nearest_material(samples, model, metric, fixed, start);
+  } catch (const table::FileError& error) {
+    throw std::invalid_argument(fmt::format("nothing can be fitted to it{}", error.what()));
+  }
+}
+
+/// The material as it is, with its error.
 NearestMaterial with_error(Material material, const table::SampleTable& samples,
                            fit::Metric metric) {
-  const auto all = all_settings(material);
-  const double error = nearest_material(samples, model_of(material), metric, all).metric_error;
+  const double error =
+      fitted(samples, model_of(material), metric, all_settings(material)).metric_error;
   return {std::move(material), error};
 }
 
-/// The shape parameters of a closed form, as a place to start from.
-std::vector<fit::ParameterSetting> start_at(const LobeMaterial& from, std::string_view to) {
-  try {
-    const Lobe lobe = closed_form({from.lobe.term, from.lobe.shape, {}}, to);
-    const Material material = material_of(lobe, {}, {});
-    const ParameterValue& shape = material.parameters.back();
-    return {{shape.name, shape.value.front()}};
-  } catch (const std::invalid_argument&) {
-    return {};
+Conversion recorded(NearestMaterial nearest, const Difference& remaining, std::string from,
+                    const ConversionOptions& options) {
+  if (!std::isfinite(remaining.rms)) {
+    throw std::invalid_argument(
+        "it reflects no light, and the model cannot be black: leave it out");
   }
+  Conversion conversion{.material = std::move(nearest.material), .remaining = remaining};
+  conversion.material.conversion = ConversionRecord{.from = std::move(from),
+                                                    .method = std::string(name(options.method)),
+                                                    .metric = std::string(name(options.metric)),
+                                                    .metric_error = nearest.metric_error,
+                                                    .theta_i_deg = options.theta_deg,
+                                                    .peak = remaining.peak,
+                                                    .rms = remaining.rms,
+                                                    .albedo = remaining.albedo};
+  return conversion;
+}
+
+/// The closed form, if there is one.
+std::optional<Material> closed_material(const LobeMaterial& from, std::string_view to) {
+  try {
+    return material_of(closed_form(from.lobe, to), from.rho_d, from.channels);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  }
+}
+
+/// The shape of a closed form, whatever its amplitude would be, as a place to start from.
+std::vector<fit::ParameterSetting> start_at(const LobeMaterial& from, std::string_view to) {
+  const auto material = closed_material({{}, {}, {}, {from.lobe.term, from.lobe.shape, {}}}, to);
+  if (!material) return {};
+  const ParameterValue& shape = material->parameters.back();
+  return {{shape.name, shape.value.front()}};
+}
+
+bool is_dark(const LobeMaterial& from) {
+  return std::all_of(from.lobe.amplitudes.begin(), from.lobe.amplitudes.end(),
+                     [](double amplitude) { return amplitude == 0; });
+}
+
+/// What a fit is not to move: the diffuse part, and channels in which there is no lobe, as far as
+/// the term can be black.
+std::vector<fit::ParameterSetting> fixed_by(const LobeMaterial& from, const brdf::Model& target) {
+  const Material original = material_of(from.lobe, from.rho_d, from.channels);
+  std::vector<fit::ParameterSetting> fixed = shared_diffuse(original, target);
+  if (brdf::has_fixed_part(*target.terms()[1])) return fixed;
+  for (std::size_t c = 0; c < from.channels.size(); ++c) {
+    if (from.lobe.amplitudes[c] == 0) {
+      fixed.push_back({target.amplitudes()[1].name + "." + from.channels[c], 0});
+    }
+  }
+  return fixed;
+}
+
+/// The best fit, or the closed form where that is better: a search may end in a local minimum.
+NearestMaterial best_of(const LobeMaterial& from, std::string_view to,
+                        const table::SampleTable& samples, fit::Metric metric) {
+  const brdf::Model target(std::string(lambert_plus) + std::string(to));
+  const auto closed = closed_material(from, to);
+  if (closed && is_dark(from)) return with_error(*closed, samples, metric);
+  NearestMaterial best =
+      fitted(samples, target, metric, fixed_by(from, target), start_at(from, to));
+  if (!closed) return best;
+  NearestMaterial other = with_error(*closed, samples, metric);
+  return other.metric_error < best.metric_error ? other : best;
+}
+
+/// A lobe whose reflected radiance is that of the other one, times the cosine of the incidence once
+/// more: fitted in l2, it is a classic highlight fitted in cosine-l2.
+NearestMaterial best_classic_of(LobeMaterial from, std::string_view to,
+                                table::SampleTable samples) {
+  const std::vector<double> rho_d = from.rho_d;
+  from.rho_d.assign(rho_d.size(), 0);
+  for (std::size_t c = 0; c < samples.values.size(); ++c) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const bool is_lit = samples.wo.z[i] > 0;
+      const double diffuse = is_lit ? rho_d[c] / std::numbers::pi : 0;
+      samples.values[c][i] = (samples.values[c][i] - diffuse) * samples.wi.z[i];
+    }
+  }
+  NearestMaterial best = best_of(from, to, samples, fit::Metric::l2);
+  best.material.parameters.front().value = rho_d;
+  return best;
 }
 
 std::string in_words(const LobeMaterial& from) {
@@ -134,6 +213,20 @@ std::string in_words(const LobeMaterial& from) {
   const ParameterValue& shape = material.parameters.back();
   return fmt::format("{}, {} {:.6g}{}", from.lobe.term, shape.name, shape.value.front(),
                      from.is_classic ? ", without the cosine of the incidence" : "");
+}
+
+void require_classic_target(std::string_view to, const ConversionOptions& options) {
+  if (to.ends_with("phong") && options.metric == fit::Metric::cosine_l2 &&
+      options.method == ConversionMethod::best_fit) {
+    return;
+  }
+  throw std::invalid_argument(
+      "a classic highlight is fitted as phong or blinn-phong, by the best fit in cosine-l2 only");
+}
+
+bool is_convertible(std::string_view term) {
+  const auto terms = convertible_terms();
+  return std::find(terms.begin(), terms.end(), term) != terms.end();
 }
 
 }  // namespace
@@ -153,29 +246,30 @@ ConversionMethod conversion_method_from_name(std::string_view text) {
 Conversion convert(const LobeMaterial& from, std::string_view to,
                    const ConversionOptions& options) {
   const fit::Metric metric = require_usable(options.metric);
-  const Material original = material_of(from.lobe, from.rho_d, from.channels);
-  const brdf::BoundModel bound = bind(original);
+  if (options.to_classic) require_classic_target(to, options);
+  const brdf::BoundModel bound = bind(material_of(from.lobe, from.rho_d, from.channels));
   const brdf::Model target(std::string(lambert_plus) + std::string(to));
   const table::SampleTable samples =
       sample(from.is_classic ? classic_reflectance(from) : reflectance_of(bound), from.channels,
-             options.incidence.value_or(default_incidence(target)));
-  NearestMaterial nearest =
-      options.method == ConversionMethod::closed_form
-          ? with_error(material_of(closed_form(from.lobe, to), from.rho_d, from.channels), samples,
-                       metric)
-          : nearest_material(samples, target, metric, shared_diffuse(original, target),
-                             start_at(from, to));
-  Conversion conversion = judged(std::move(nearest), samples, options);
-  conversion.material.name = from.name;
-  conversion.material.conversion->from = in_words(from);
-  return conversion;
+             incidence_for(bound.model(), target, options));
+  NearestMaterial nearest = [&] {
+    if (options.to_classic) return best_classic_of(from, to, samples);
+    if (options.method == ConversionMethod::best_fit) return best_of(from, to, samples, metric);
+    return with_error(material_of(closed_form(from.lobe, to), from.rho_d, from.channels), samples,
+                      metric);
+  }();
+  nearest.material.name = from.name;
+  const brdf::BoundModel stand_in = bind(nearest.material);
+  const Difference remaining = difference(
+      samples, options.to_classic ? classic_reflectance(*lobe_material_of(nearest.material))
+                                  : reflectance_of(stand_in));
+  return recorded(std::move(nearest), remaining, in_words(from), options);
 }
 
 std::optional<LobeMaterial> lobe_material_of(const Material& material) {
   if (!material.model.starts_with(lambert_plus)) return std::nullopt;
   const std::string term = material.model.substr(lambert_plus.size());
-  const auto terms = convertible_terms();
-  if (std::find(terms.begin(), terms.end(), term) == terms.end()) return std::nullopt;
+  if (!is_convertible(term)) return std::nullopt;
   // In the model's order: rho_d, the lobe's amplitude, its shape.
   return LobeMaterial{.name = material.name,
                       .channels = material.channels,
@@ -187,32 +281,25 @@ std::optional<LobeMaterial> lobe_material_of(const Material& material) {
 
 Conversion convert(const Material& from, const brdf::Model& to, const ConversionOptions& options) {
   const auto lobe = lobe_material_of(from);
-  const bool is_lobe =
-      to.name().starts_with(lambert_plus) && to.terms().size() == 2 && lobe.has_value();
-  if (is_lobe) {
-    const std::string term(to.terms()[1]->description.name);
-    const auto terms = convertible_terms();
-    if (std::find(terms.begin(), terms.end(), term) != terms.end()) {
-      return convert(*lobe, term, options);
-    }
+  if (lobe && to.name().starts_with(lambert_plus) && to.terms().size() == 2 &&
+      is_convertible(to.terms()[1]->description.name)) {
+    return convert(*lobe, to.terms()[1]->description.name, options);
   }
-  if (options.method == ConversionMethod::closed_form) {
-    throw std::invalid_argument(
-        fmt::format("there is no closed form from {} to {}: it is for lambert and one isotropic "
-                    "lobe on both sides; use --method best-fit",
-                    from.model, to.name()));
+  if (options.method == ConversionMethod::closed_form || options.to_classic) {
+    throw std::invalid_argument(fmt::format(
+        "from {} to {} there is neither a closed form nor a classic highlight: they are "
+        "for lambert and one isotropic lobe on both sides",
+        from.model, to.name()));
   }
   const fit::Metric metric = require_usable(options.metric);
   const brdf::BoundModel bound = bind(from);
-  const Incidence incidence =
-      bound.model().is_anisotropic() ? default_incidence(bound.model()) : default_incidence(to);
   const table::SampleTable samples =
-      sample(reflectance_of(bound), from.channels, options.incidence.value_or(incidence));
-  Conversion conversion =
-      judged(nearest_material(samples, to, metric, shared_diffuse(from, to)), samples, options);
-  conversion.material.name = from.name;
-  conversion.material.conversion->from = from.model;
-  return conversion;
+      sample(reflectance_of(bound), from.channels, incidence_for(bound.model(), to, options));
+  NearestMaterial nearest = fitted(samples, to, metric, shared_diffuse(from, to));
+  nearest.material.name = from.name;
+  const brdf::BoundModel stand_in = bind(nearest.material);
+  const Difference remaining = difference(samples, reflectance_of(stand_in));
+  return recorded(std::move(nearest), remaining, from.model, options);
 }
 
 }  // namespace gonio::material

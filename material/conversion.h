@@ -26,8 +26,12 @@ struct ConversionOptions {
   ConversionMethod method = ConversionMethod::best_fit;
   /// What the best fit minimises, and what metric_error is an error of; chi2 has no meaning here.
   fit::Metric metric = fit::Metric::cosine_l2;
-  /// The lights under which the two are compared; with nothing given what suits the model.
-  std::optional<Incidence> incidence = {};
+  /// The polar angles of the lights under which the two are compared; azimuths as suits the models.
+  std::vector<double> theta_deg = Incidence{}.theta_deg;
+  /// The result is to be a highlight without the cosine of the incidence (Amplitude::classic), as a
+  /// shader draws it: what is fitted is ks cos^n / cos_i. For phong and blinn-phong and the metric
+  /// cosine-l2 only; the material that comes out has to be drawn in this way, too.
+  bool to_classic = false;
 };
 
 /// Lambert's diffuse and one isotropic lobe.
@@ -44,13 +48,14 @@ struct LobeMaterial {
 struct Conversion {
   /// With its ConversionRecord.
   Material material;
-  /// The error under the options' metric, as a fit to the other material has it.
-  double metric_error;
   Difference remaining;
 };
 
-/// The lobe with the specular term `to`; the diffuse part is kept. Throws std::invalid_argument for
-/// a term that has no closed form where that is asked for, or that there is not.
+/// The lobe with the specular term `to`; the diffuse part is kept. A best fit is never worse than
+/// the closed form in the metric, where there is one; a lobe of amplitude 0 keeps its width by the
+/// closed form. Throws std::invalid_argument where there is no closed form and it is asked for, for
+/// a term that is not convertible, options that do not suit it, and values that no fit can be made
+/// to.
 Conversion convert(const LobeMaterial& from, std::string_view to, const ConversionOptions& options);
 
 /// The material as another model by the best fit; a diffuse term that both have is kept. Throws

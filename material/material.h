@@ -89,6 +89,8 @@ struct ConversionRecord {
   std::string from;    // "blinn-phong, exponent 50, ..": in words
   std::string method;  // closed-form or best-fit
   std::string metric;  // what the best fit minimised
+  double metric_error;
+  std::vector<double> theta_i_deg;  // the lights under which the two were compared
   /// As in Difference (comparison.h).
   double peak;
   double rms;

@@ -131,6 +131,8 @@ ConversionRecord read_conversion(const JsonField& field) {
   return {.from = field.member("from").text(),
           .method = field.member("method").text(),
           .metric = field.member("metric").text(),
+          .metric_error = error.member("metric").number(),
+          .theta_i_deg = field.member("theta_i_deg").numbers(),
           .peak = error.member("peak").number(),
           .rms = error.member("rms").number(),
           .albedo = error.member("albedo").number()};
@@ -215,8 +217,12 @@ ordered_json json_of(const ConversionRecord& conversion) {
   return {{"from", conversion.from},
           {"method", conversion.method},
           {"metric", conversion.metric},
+          {"theta_i_deg", conversion.theta_i_deg},
           {"error",
-           {{"peak", conversion.peak}, {"rms", conversion.rms}, {"albedo", conversion.albedo}}}};
+           {{"metric", conversion.metric_error},
+            {"peak", conversion.peak},
+            {"rms", conversion.rms},
+            {"albedo", conversion.albedo}}}};
 }
 
 ordered_json json_of(const MaterialProvenance& provenance) {

@@ -103,6 +103,16 @@ double amplitude_in(Amplitude convention, double ks, double exponent) {
 
 std::span<const std::string_view> convertible_terms() { return term_names; }
 
+const brdf::Parameter& shape_parameter(std::string_view term) {
+  family_of(term);
+  return term_entry(term).shape.front();
+}
+
+const brdf::Parameter& amplitude_parameter(std::string_view term) {
+  family_of(term);
+  return term_entry(term).amplitudes.front();
+}
+
 double half_vector_exponent(std::string_view term, double shape) {
   switch (family_of(term)) {
     case Family::mirror_power:
@@ -153,25 +163,25 @@ Lobe closed_form(const Lobe& lobe, std::string_view to) {
   Lobe result{.term = std::string(to),
               .shape = shape_of_exponent(to, half_vector_exponent(lobe.term, lobe.shape)),
               .amplitudes = {}};
-  require_within(result.shape, term_entry(to).shape.front(), to);
+  require_within(result.shape, shape_parameter(to), to);
   const double per_amplitude =
       peak_at_normal(lobe.term, lobe.shape) / peak_at_normal(to, result.shape);
   for (const double amplitude : lobe.amplitudes) {
     result.amplitudes.push_back(amplitude * per_amplitude);
-    require_within(result.amplitudes.back(), term_entry(to).amplitudes.front(), to);
+    require_within(result.amplitudes.back(), amplitude_parameter(to), to);
   }
   return result;
 }
 
 Material material_of(const Lobe& lobe, std::span<const double> rho_d,
                      std::span<const std::string> channels) {
-  const brdf::TermEntry& entry = term_entry(lobe.term);
   Material material;
   material.model = brdf::Model("lambert+" + lobe.term).name();
   material.channels.assign(channels.begin(), channels.end());
-  material.parameters = {{"rho_d", {rho_d.begin(), rho_d.end()}, {}, {}},
-                         {std::string(entry.amplitudes.front().name), lobe.amplitudes, {}, {}},
-                         {std::string(entry.shape.front().name), {lobe.shape}, {}, {}}};
+  material.parameters = {
+      {"rho_d", {rho_d.begin(), rho_d.end()}, {}, {}},
+      {std::string(amplitude_parameter(lobe.term).name), lobe.amplitudes, {}, {}},
+      {std::string(shape_parameter(lobe.term).name), {lobe.shape}, {}, {}}};
   return material;
 }
 

@@ -16,13 +16,12 @@
 // Amplitudes are converted so that f_r at normal incidence, with the viewer there too, is kept.
 #pragma once
 
-#include <array>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "material/comparison.h"
+#include "brdf/parameter.h"
 #include "material/material.h"
 
 namespace gonio::material {
@@ -45,6 +44,11 @@ double amplitude_in(Amplitude convention, double ks, double exponent);
 
 /// The specular terms that have a closed form, phong first.
 std::span<const std::string_view> convertible_terms();
+
+/// The descriptors of a convertible term's exponent or roughness, and of its amplitude. Throw
+/// std::invalid_argument for other terms.
+const brdf::Parameter& shape_parameter(std::string_view term);
+const brdf::Parameter& amplitude_parameter(std::string_view term);
 
 /// A lobe of one of these terms: `shape` is its exponent or alpha, `amplitudes` its ks, rho_s or
 /// Rs, one per channel.

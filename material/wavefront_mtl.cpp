@@ -152,7 +152,11 @@ bool Definition::has_highlight(std::vector<std::string>& notes) const {
                                  "to 10 after illum (2: diffuse with highlight)",
                                  value));
   }
-  if (value == 0) notes.emplace_back("illum 0: a constant colour, taken for a diffuse one");
+  if (value == 0) {
+    notes.emplace_back(known_[ks].count > 0
+                           ? "illum 0: a constant colour, taken for a diffuse one; Ks is unused"
+                           : "illum 0: a constant colour, taken for a diffuse one");
+  }
   if (value == 1 && known_[ks].count > 0) notes.emplace_back("illum 1: no highlight, Ks is unused");
   if (value > 2) {
     notes.push_back(

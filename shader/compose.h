@@ -25,8 +25,8 @@ struct SourceText {
 };
 
 /// A function and all that it needs, to be pasted or included into a shader: no entry point, no
-/// resources. Two such texts, for two materials, may stand in one shader if their names differ: the
-/// functions that they share are guarded.
+/// resources. Two such texts, for two materials, may stand in one shader if their identifiers
+/// (identifier.h) differ: the functions that they share are guarded.
 ///
 /// For 1 to 4 channels `T NAME(float3 wi, float3 wo)` with T = float to float4; for more `void
 /// NAME(float3 wi, float3 wo, out float f_r[N])`. HLSL is for fxc's shader model 5 and later, GLSL

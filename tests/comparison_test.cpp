@@ -34,7 +34,7 @@ TEST(Comparison, OfConstantsIsTheirRatio) {
   const auto samples = sample(constant(0.2, 0.1), two_channels, {});
   // A is right; B is 0.12 for 0.1.
   const Difference d = difference(samples, constant(0.2, 0.12));
-  EXPECT_NEAR(d.peak, 0.2, 1e-12);
+  EXPECT_NEAR(d.peak, 0.1, 1e-12);  // of the brightest channel's 0.2
   EXPECT_EQ(d.where.channel, "B");
   EXPECT_NEAR(d.where.theta_i_deg, 0, 1e-6);  // f_r cos_i is largest there
   EXPECT_NEAR(d.rms, 0.02 / std::hypot(0.2, 0.1), 1e-12);
@@ -82,8 +82,30 @@ TEST(Comparison, SeesATangentFromSeveralAzimuths) {
   EXPECT_GT(default_incidence(brdf::Model("ward-aniso")).phi_deg.size(), 1U);
 }
 
-TEST(Comparison, RefusesALightOnTheHorizon) {
-  EXPECT_THROW(sample(constant(1, 1), two_channels, {.theta_deg = {90}}), std::invalid_argument);
+TEST(Comparison, IsTheSameFromOneAzimuthAndFromSeveralWhereThereIsNoTangent) {
+  const Reflectance lobe = [](const Direction<double>& wi, const Direction<double>& wo,
+                              std::span<double> values) {
+    values[0] = std::exp(-30 * (std::pow(wi.x + wo.x, 2) + std::pow(wi.y + wo.y, 2)));
+    values[1] = wi.z * wo.z;
+  };
+  const Difference one = difference(sample(lobe, two_channels, {}), constant(0.2, 0.1));
+  const Difference several = difference(
+      sample(lobe, two_channels, default_incidence(brdf::Model("ward-aniso"))), constant(0.2, 0.1));
+  EXPECT_NEAR(one.peak, several.peak, 1e-9);
+  EXPECT_NEAR(one.rms, several.rms, 1e-9);
+  EXPECT_NEAR(one.albedo, several.albedo, 1e-9);
+  // A light that is given twice counts twice, and its albedo is no other.
+  const Difference twice =
+      difference(sample(lobe, two_channels, {.theta_deg = {30, 30}}), constant(0.2, 0.1));
+  const Difference once =
+      difference(sample(lobe, two_channels, {.theta_deg = {30}}), constant(0.2, 0.1));
+  EXPECT_NEAR(twice.albedo, once.albedo, 1e-12);
+  EXPECT_NEAR(twice.rms, once.rms, 1e-12);
+}
+
+TEST(Comparison, RefusesALightBeyond80Degrees) {
+  EXPECT_NO_THROW(sample(constant(1, 1), two_channels, {.theta_deg = {80}}));
+  EXPECT_THROW(sample(constant(1, 1), two_channels, {.theta_deg = {85}}), std::invalid_argument);
   EXPECT_THROW(sample(constant(1, 1), two_channels, {.theta_deg = {-1}}), std::invalid_argument);
 }
 

@@ -57,7 +57,8 @@ TEST(ConvertCommand, GivesProgramsEveryDigit) {
   EXPECT_NEAR(closed["parameters"]["rho_s"]["value"][0], 8, 1e-13);
   const auto& best = json["conversions"][1];
   EXPECT_EQ(best["model"], "lambert+ward-gmd");
-  EXPECT_LE(best["conversion"]["metric_error"], closed["conversion"]["metric_error"]);
+  EXPECT_LE(best["conversion"]["error"]["metric"], closed["conversion"]["error"]["metric"]);
+  EXPECT_EQ(best["conversion"]["theta_i_deg"].size(), 6U);
   EXPECT_GT(best["conversion"]["error"]["rms"], 0);
   EXPECT_EQ(best["provenance"]["command"],
             "gonio convert blinn-phong --exponent 50 --ks 2 --amplitude normalised --to ward-gmd "
@@ -92,15 +93,18 @@ struct Refusal {
 
 TEST(ConvertCommand, RefusesWrongUsageInOneLine) {
   const std::vector<Refusal> refusals{
-      {{"phong"}, "--exponent is missing"},
-      {{"phong", "--exponent", "0"}, "above 0"},
-      {{"phong", "--exponent", "-3"}, "above 0"},
+      {{"phong"}, "its width is given by --exponent"},
+      {{"phong", "--exponent", "0"}, "more than 0"},
+      {{"phong", "--exponent", "-3"}, "more than 0"},
       {{"phong", "--exponent", "many"}, "expected a number"},
-      {{"phong", "--exponent", "2e6"}, "expected 0 to 1e+06"},
-      {{"phong", "--alpha", "0.1"}, "--exponent is missing"},
+      {{"phong", "--exponent", "2e6"}, "up to 1e+06"},
+      {{"phong", "--alpha", "0.1"}, "its width is given by --exponent"},
       {{"ward", "--alpha", "20"}, "expected 0.0001 to 10"},
       {{"ward", "--alpha", "0.1", "--ks", "1"}, "--ks is no amplitude"},
-      {{"ward", "--alpha", "0.1", "--amplitude", "raw"}, "--amplitude is how ks"},
+      {{"ward", "--alpha", "0.1", "--amplitude", "normalised"}, "says how a given ks is meant"},
+      {{"ward", "--alpha", "0.1", "--amplitude", "classic", "-o", "x.json"},
+       "no material of gonio"},
+      {{"ward", "--alpha", "0.1", "--amplitude", "classic", "--to", "ward"}, "classic highlight"},
       {{"phong", "--exponent", "5", "--ks", "-1"}, "expected 0 to"},
       {{"phong", "--exponent", "5", "--amplitude", "rough"}, "raw, normalised and classic"},
       {{"phong", "--exponent", "5", "--to", "wart"}, "did you mean 'ward'?"},
@@ -108,6 +112,7 @@ TEST(ConvertCommand, RefusesWrongUsageInOneLine) {
       {{"phong", "--exponent", "5", "--method", "guess"}, "closed-form and best-fit"},
       {{"phong", "--exponent", "5", "--metric", "chi2"}, "noise of a measurement"},
       {{"phong", "--exponent", "5", "--theta", "90"}, "less than 90"},
+      {{"phong", "--exponent", "5", "--theta", "0,85"}, "compared up to 80"},
       {{"phong", "--exponent", "5", "--default-exponent", "3"}, "says nothing here"},
       {{"phongg", "--exponent", "5"}, "did you mean 'phong'?"}};
   for (const Refusal& refusal : refusals) {
@@ -135,13 +140,42 @@ TEST(ConvertCommand, ConvertsACsvRowByRowPastBadOnes) {
   EXPECT_EQ(lines[0],
             "name,exponent,ks,to,to_alpha,to_rho_s,method,metric_error,peak,rms,albedo,problem");
   EXPECT_THAT(lines[1], StartsWith(fmt::format("matt,5,0.1,ward,{},", std::sqrt(2 / 7.0))));
-  EXPECT_EQ(lines[2], "bad,-1,0.1,,,,,,,,,exponent is -1; expected more than 0 and up to 1e6");
+  EXPECT_EQ(
+      lines[2],
+      "bad,-1,0.1,,,,,,,,,the exponent is -1; expected more than 0 and up to 1e+06; at 0 there is "
+      "no highlight");
   EXPECT_THAT(lines[3], HasSubstr("expected a number"));
   EXPECT_THAT(lines[4], HasSubstr("2 fields; expected 3"));
   EXPECT_THAT(lines[5], StartsWith(fmt::format("sharp,1000,0.2,ward,{},", std::sqrt(2 / 1002.0))));
   EXPECT_THAT(lines_of(result.err),
-              ElementsAre(HasSubstr("lobes.csv:4: exponent is -1"), HasSubstr("lobes.csv:5:"),
+              ElementsAre(HasSubstr("lobes.csv:4: the exponent is -1"), HasSubstr("lobes.csv:5:"),
                           HasSubstr("lobes.csv:6:")));
+}
+
+TEST(ConvertCommand, TakesACsvOfRoughnessBack) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("ward.csv", "\"alpha\"\n0.5\n");
+  const auto result = run_gonio({"convert", path, "--method", "closed-form"});
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("blinn-phong,6,"));  // 2 / 0.5^2 - 2
+  EXPECT_EQ(run_gonio({"convert", path, "--amplitude", "classic"}).exit_status, 2);
+  const std::string exponents = folder.write("phong.csv", "exponent\n5\n");
+  EXPECT_EQ(run_gonio({"convert", exponents, "--amplitude", "foo"}).exit_status, 2);
+  const auto overwriting = run_gonio({"convert", exponents, "-o", exponents});
+  EXPECT_EQ(overwriting.exit_status, 2);
+  EXPECT_EQ(content_of(exponents), "exponent\n5\n");
+}
+
+TEST(ConvertCommand, DoesTheOthersWhereNothingCanBeFitted) {
+  const TemporaryFolder folder;
+  // Of 1e-200 there is no square.
+  const auto result =
+      run_gonio({"convert", folder.write("lobes.csv", "exponent,ks\n50,1\n60,1e-200\n70,1\n")});
+  EXPECT_EQ(result.exit_status, 1);
+  const auto lines = lines_of(result.out);
+  ASSERT_EQ(lines.size(), 4U) << result.out;
+  EXPECT_THAT(lines[2], HasSubstr("nothing can be fitted"));
+  EXPECT_THAT(lines[3], HasSubstr("best-fit"));
 }
 
 TEST(ConvertCommand, RefusesACsvThatDoesNotSayWhatItHolds) {
@@ -196,6 +230,7 @@ TEST(ConvertCommand, ConvertsALibraryPastBadMaterials) {
   // Near the closed form sqrt(2/98), 4 pi a^2 Ks / pi: the best fit is a little wider.
   EXPECT_NEAR(value_of(red, "alpha", 0), std::sqrt(2 / 98.078), 0.01);
   EXPECT_NEAR(value_of(red, "rho_s", 1), 4 * 2 / 98.078 * 0.2, 1e-3);
+  EXPECT_THAT(result.out, AllOf(HasSubstr("red_plastic.json"), HasSubstr("Red_Plastic_2.json")));
   EXPECT_THAT(red.conversion->from, HasSubstr("without the cosine"));
   EXPECT_THAT(red.provenance->table, HasSubstr("old.mtl"));
   EXPECT_EQ(red.provenance->sha256.size(), 64U);
@@ -227,6 +262,21 @@ TEST(ConvertCommand, RefusesALibraryWithoutMaterialsOrAFolderThatIsAFile) {
   EXPECT_EQ(content_of(file), "x");
 }
 
+TEST(ConvertCommand, KeepsTheLettersOfANameAndItsNotes) {
+  const TemporaryFolder folder;
+  const TemporaryFolder out;
+  const auto result = run_gonio({"convert",
+                                 folder.write("one.mtl",
+                                              "newmtl \xE9\x87\x91\xE5\xB1\x9E/..\nKd 1 1 1\n"
+                                              "map_Kd gold.png\n"),
+                                 "-o", out / "", "--json"});
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_THAT(out.names(), ElementsAre("\xE9\x87\x91\xE5\xB1\x9E_...json"));
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_THAT(json["materials"][0]["notes"].dump(), HasSubstr("map"));
+  EXPECT_THAT(result.err, testing::Not(HasSubstr("times the light")));  // an albedo of 1 is allowed
+}
+
 constexpr std::string_view brass = R"({"format": "gonio-material", "version": 1, "name": "brass",
   "model": "ward-aniso", "channels": ["R", "G"], "parameters": {"rho_d": {"value": [0.1, 0.2]},
   "rho_s": {"value": [0.3, 0.2]}, "alpha_x": {"value": 0.05}, "alpha_y": {"value": 0.16}}})";
@@ -242,6 +292,20 @@ TEST(ConvertCommand, GivesTheFarPartnerOfALevelOfDetailPair) {
   EXPECT_EQ(material.channels, (std::vector<std::string>{"R", "G"}));
   EXPECT_EQ(value_of(material, "rho_d", 1), 0.2);
   EXPECT_NEAR(value_of(material, "ks", 0) / value_of(material, "ks", 1), 1.5, 1e-9);
+}
+
+TEST(ConvertCommand, KeepsTheDiffuseTermBesideABareLobe) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write(
+      "rough.json", R"({"format": "gonio-material", "version": 1, "model": "oren-nayar+ward",
+      "channels": ["Y"], "parameters": {"rho_d": {"value": 0.4}, "sigma": {"value": 0.5},
+      "rho_s": {"value": 0.1}, "alpha": {"value": 0.2}}})");
+  const auto result = run_gonio({"convert", path, "--to", "blinn-phong", "--json"});
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["model"], "oren-nayar+blinn-phong");
+  EXPECT_EQ(json["parameters"]["sigma"]["value"], 0.5);
+  EXPECT_EQ(run_gonio({"convert", path, "-o", path}).exit_status, 2);
 }
 
 TEST(ConvertCommand, RefusesAMaterialOfANewerVersion) {

@@ -33,8 +33,25 @@ material::ConversionOptions conversion_options_in(const ConvertArguments& argume
 /// The methods to show: the one that was asked for, or both.
 std::vector<material::ConversionMethod> methods_in(const ConvertArguments& arguments);
 
-/// The isotropic specular term that old Phong materials become.
-std::string target_term_in(const ConvertArguments& arguments);
+/// The isotropic specular term of --to, or the given one. Throws std::invalid_argument for others.
+std::string target_term_in(const ConvertArguments& arguments, const std::string& otherwise);
+
+/// Where --amplitude says so: the result's ks is to be a classic one. Throws std::invalid_argument
+/// for another convention.
+bool wants_classic(const ConvertArguments& arguments);
+
+// What lobes are given by, for the convertible terms of material/phong_conversion.h. Those that
+// check throw std::invalid_argument.
+bool is_phong(std::string_view term);
+std::string_view width_name(std::string_view term);      // alpha or exponent
+std::string_view amplitude_name(std::string_view term);  // ks, rho_s or Rs
+double checked_width(std::string_view term, double value);
+double checked_amplitude(std::string_view term, double value);
+double default_amplitude(std::string_view term);
+std::string default_target(std::string_view term);
+
+/// Throws std::invalid_argument if the output would overwrite the source.
+void refuse_overwriting(const std::string& source, const std::string& output);
 
 /// A number that an option gives. Throws std::invalid_argument that names the option.
 double number_of(std::string_view option, std::string_view text);
@@ -51,8 +68,14 @@ std::string percent(double share);
 /// What the errors of the tables are, in words.
 std::string error_legend(const material::ConversionOptions& options);
 
-/// The converted material with its provenance: the command line and the source file, if it was one.
-void set_provenance(material::Material& material, const std::string& source_file,
+/// The file that materials come from, and its digest, taken once.
+struct SourceFile {
+  std::string path;  // both empty where there is no file
+  std::string sha256;
+};
+SourceFile source_file(const std::string& path);
+
+void set_provenance(material::Material& material, const SourceFile& source,
                     const Invocation& invocation);
 
 }  // namespace gonio::app

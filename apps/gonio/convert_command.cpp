@@ -80,7 +80,7 @@ void refuse_unused(const ConvertArguments& arguments, SourceKind kind) {
        {"--ks", arguments.ks, is_lobe},
        {"--rho-s", arguments.rho_s, is_lobe},
        {"--Rs", arguments.specular_share, is_lobe},
-       {"--amplitude", arguments.amplitude, is_lobe || kind == SourceKind::csv},
+       {"--amplitude", arguments.amplitude, kind != SourceKind::mtl},
        {"--lobe", arguments.lobe, is_list},
        {"--default-exponent", arguments.default_exponent, kind == SourceKind::mtl}}};
   for (const Option& option : options) {
@@ -122,10 +122,32 @@ material::ConversionOptions conversion_options_in(const ConvertArguments& argume
     options.method = material::conversion_method_from_name(arguments.method);
   }
   if (!arguments.theta.empty()) {
-    options.incidence =
-        material::Incidence{.theta_deg = parse_polar_angles("--theta", arguments.theta)};
+    options.theta_deg = parse_polar_angles("--theta", arguments.theta);
+    for (const double theta : options.theta_deg) {
+      if (theta <= material::largest_compared_theta_deg) continue;
+      throw std::invalid_argument(
+          fmt::format("--theta {}: {:g} degrees: lights are compared up to {:g}", arguments.theta,
+                      theta, material::largest_compared_theta_deg));
+    }
   }
   return options;
+}
+
+bool wants_classic(const ConvertArguments& arguments) {
+  if (arguments.amplitude.empty()) return false;
+  const auto convention = material::amplitude_from_name(arguments.amplitude);
+  if (convention == material::Amplitude::normalised) {
+    throw std::invalid_argument(
+        "--amplitude normalised: says how a given ks is meant; of a result all three are printed");
+  }
+  return convention == material::Amplitude::classic;
+}
+
+void refuse_overwriting(const std::string& source, const std::string& output) {
+  std::error_code error;
+  if (output.empty() || !std::filesystem::equivalent(source, output, error)) return;
+  throw std::invalid_argument(
+      fmt::format("-o {}: would overwrite what is converted: name another file", output));
 }
 
 std::vector<material::ConversionMethod> methods_in(const ConvertArguments& arguments) {
@@ -135,8 +157,8 @@ std::vector<material::ConversionMethod> methods_in(const ConvertArguments& argum
   return {material::ConversionMethod::closed_form, material::ConversionMethod::best_fit};
 }
 
-std::string target_term_in(const ConvertArguments& arguments) {
-  std::string term = arguments.to.empty() ? "ward" : arguments.to;
+std::string target_term_in(const ConvertArguments& arguments, const std::string& otherwise) {
+  std::string term = arguments.to.empty() ? otherwise : arguments.to;
   if (is_convertible(term)) return term;
   const auto terms = material::convertible_terms();
   const std::vector<std::string> known(terms.begin(), terms.end());
@@ -149,23 +171,23 @@ std::string target_term_in(const ConvertArguments& arguments) {
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
 std::string error_legend(const material::ConversionOptions& options) {
-  const material::Incidence incidence = options.incidence.value_or(material::Incidence{});
   return fmt::format(
       "peak: largest difference of reflected radiance (f_r cos_i) per largest radiance; rms: the\n"
       "same in the mean, weighted by solid angle; albedo: largest difference of directional "
       "albedo.\n"
       "Light from {} deg, viewers up to {:g} deg. The best fit minimises {}.\n",
-      fmt::join(incidence.theta_deg, ", "), material::largest_compared_theta_deg,
+      fmt::join(options.theta_deg, ", "), material::largest_compared_theta_deg,
       name(options.metric));
 }
 
-void set_provenance(material::Material& material, const std::string& source_file,
+SourceFile source_file(const std::string& path) { return {path, table::sha256_of_file(path)}; }
+
+void set_provenance(material::Material& material, const SourceFile& source,
                     const Invocation& invocation) {
-  material.provenance = material::MaterialProvenance{
-      .table = source_file,
-      .sha256 = source_file.empty() ? "" : table::sha256_of_file(source_file),
-      .gonio = GONIO_VERSION,
-      .command = invocation.command_line};
+  material.provenance = material::MaterialProvenance{.table = source.path,
+                                                     .sha256 = source.sha256,
+                                                     .gonio = GONIO_VERSION,
+                                                     .command = invocation.command_line};
 }
 
 void add_convert_command(CLI::App& app, Invocation& invocation) {
@@ -189,7 +211,8 @@ void add_convert_command(CLI::App& app, Invocation& invocation) {
   command
       ->add_option("--amplitude", arguments->amplitude,
                    "what ks is: raw (f_r in 1/sr, the default), normalised (times (n+2)/(2 pi)) or "
-                   "classic (a shader's, with no cosine)")
+                   "classic (a shader's, with no cosine); from other lobes: classic for such a "
+                   "result")
       ->type_name("WHAT");
   command->add_option("--rho-s", arguments->rho_s, "amplitude of a Ward lobe (default 1)")
       ->type_name("R");

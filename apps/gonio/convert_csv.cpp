@@ -5,11 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
 #include "apps/gonio/convert.h"
+#include "apps/gonio/progress.h"
 #include "table/file_error.h"
 #include "table/formats/row_fields.h"
 #include "table/formats/text_lines.h"
@@ -51,12 +51,18 @@ constexpr std::string_view header_help =
   throw table::FileError(fmt::format("{}:{}: {}", path, line, problem));
 }
 
+/// As spreadsheets write names: "exponent".
+std::string_view unquoted(std::string_view name) {
+  const bool is_quoted = name.size() > 2 && name.front() == '"' && name.back() == '"';
+  return is_quoted ? name.substr(1, name.size() - 2) : name;
+}
+
 Columns columns_of(std::string_view header, const std::string& path, std::size_t line) {
   Columns columns;
   const auto names = split_fields(header, table::Separator::comma);
   columns.count = names.size();
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const std::string_view name = names[k];
+    const std::string_view name = unquoted(names[k]);
     const bool is_amplitude = name == "ks" || name == "rho_s" || name == "Rs";
     int* column = name == "name"       ? &columns.name
                   : name == "lobe"     ? &columns.lobe
@@ -70,7 +76,8 @@ Columns columns_of(std::string_view header, const std::string& path, std::size_t
     }
     if (*column >= 0) {
       refuse(path, line,
-             fmt::format("column {} stands twice: {}", table::quoted(name), header_help));
+             fmt::format("{} stands for what another column says already: {}", table::quoted(name),
+                         header_help));
     }
     *column = static_cast<int>(k);
     if (is_amplitude) columns.amplitude_name = name;
@@ -116,62 +123,54 @@ double number_in(const Row& row, int column, std::string_view name) {
   return *value;
 }
 
-std::string lobe_of(const Columns& columns, const Row& row, const ConvertArguments& arguments) {
-  if (columns.lobe >= 0) return row.fields[static_cast<std::size_t>(columns.lobe)];
-  if (!arguments.lobe.empty()) return arguments.lobe;
-  if (columns.alpha >= 0) return "ward";
-  return "blinn-phong";
+std::string lobe_of(const Columns& columns, const Row& row, const std::string& usual) {
+  const auto column = static_cast<std::size_t>(columns.lobe);
+  if (columns.lobe < 0 || column >= row.fields.size() || row.fields[column].empty()) return usual;
+  return row.fields[column];
 }
 
 double shape_of(const Columns& columns, const Row& row, std::string_view term) {
-  const bool is_ward = term.starts_with("ward");
-  if (is_ward != (columns.alpha >= 0)) {
-    throw std::invalid_argument(fmt::format("the width of {} is given in a column {}", term,
-                                            is_ward ? "alpha" : "exponent"));
+  const std::string_view width = width_name(term);
+  if ((width == "alpha") != (columns.alpha >= 0)) {
+    throw std::invalid_argument(
+        fmt::format("the width of {} is given in a column {}", term, width));
   }
-  if (is_ward) {
-    const double alpha = number_in(row, columns.alpha, "alpha");
-    if (alpha >= 1e-4 && alpha <= 10) return alpha;
-    throw std::invalid_argument(fmt::format("alpha is {:g}, expected 0.0001 to 10", alpha));
-  }
-  const double exponent = number_in(row, columns.exponent, "exponent");
-  if (exponent > 0 && exponent <= 1e6) return exponent;
-  throw std::invalid_argument(
-      fmt::format("exponent is {:g}, expected more than 0 and up to 1e6", exponent));
+  const int column = width == "alpha" ? columns.alpha : columns.exponent;
+  return checked_width(term, number_in(row, column, width));
 }
 
 double amplitude_of(const Columns& columns, const Row& row, std::string_view term, double shape,
                     material::Amplitude convention) {
-  const std::string_view own = term.starts_with("ward")      ? "rho_s"
-                               : term == "ashikhmin-shirley" ? "Rs"
-                                                             : "ks";
-  double value = own == "Rs" ? 0.05 : 1;
+  double value = default_amplitude(term);
   if (columns.amplitude >= 0) {
-    if (columns.amplitude_name != own) {
+    if (columns.amplitude_name != amplitude_name(term)) {
       throw std::invalid_argument(fmt::format("the amplitude of {} is {}, the column is {}", term,
-                                              own, columns.amplitude_name));
+                                              amplitude_name(term), columns.amplitude_name));
     }
-    value = number_in(row, columns.amplitude, own);
+    value = number_in(row, columns.amplitude, amplitude_name(term));
   }
-  if (!(value >= 0 && value <= (own == "Rs" ? 1 : 1e6))) {
+  value = checked_amplitude(term, value);
+  return is_phong(term) ? material::raw_amplitude(convention, value, shape) : value;
+}
+
+/// What --amplitude says of the column ks. Throws std::invalid_argument if there can be none.
+material::Amplitude convention_in(const ConvertArguments& arguments, const Columns& columns) {
+  if (arguments.amplitude.empty()) return material::Amplitude::raw;
+  if (columns.alpha >= 0) {
     throw std::invalid_argument(
-        fmt::format("{} is {:g}, expected 0 to {}", own, value, own == "Rs" ? "1" : "1e6"));
+        "--amplitude: is how the ks of a list of exponents is meant; this list is of roughness");
   }
-  return own == "ks" ? material::raw_amplitude(convention, value, shape) : value;
+  return material::amplitude_from_name(arguments.amplitude);
 }
 
 /// Throws std::invalid_argument for a row that cannot be converted.
-Conversion convert_row(const LobeList& list, const Row& row, const ConvertArguments& arguments,
-                       const std::string& to, const material::ConversionOptions& options) {
-  const Columns& columns = list.columns;
+Conversion convert_row(const Columns& columns, const Row& row, const std::string& term,
+                       const std::string& to, material::Amplitude convention,
+                       const material::ConversionOptions& options) {
   if (row.fields.size() != columns.count) {
     throw std::invalid_argument(
         fmt::format("{} fields, expected {}", row.fields.size(), columns.count));
   }
-  const auto convention = arguments.amplitude.empty()
-                              ? material::Amplitude::raw
-                              : material::amplitude_from_name(arguments.amplitude);
-  const std::string term = lobe_of(columns, row, arguments);
   const double shape = shape_of(columns, row, term);
   const double amplitude = amplitude_of(columns, row, term, shape, convention);
   return convert(material::LobeMaterial{.name = {},
@@ -179,16 +178,15 @@ Conversion convert_row(const LobeList& list, const Row& row, const ConvertArgume
                                         .rho_d = {0},
                                         .lobe = {term, shape, {amplitude}},
                                         .is_classic = convention == material::Amplitude::classic &&
-                                                      term.ends_with("phong")},
+                                                      is_phong(term)},
                  to, options);
 }
 
 std::string result_fields(const Conversion& c) {
-  const auto& parameters = c.material.parameters;
-  return fmt::format("{},{},{},{},{},{},{},{},", c.material.model.substr(sizeof("lambert")),
-                     parameters[2].value.front(), parameters[1].value.front(),
-                     c.material.conversion->method, c.metric_error, c.remaining.peak,
-                     c.remaining.rms, c.remaining.albedo);
+  const material::Lobe lobe = material::lobe_material_of(c.material)->lobe;
+  return fmt::format("{},{},{},{},{},{},{},{},", lobe.term, lobe.shape, lobe.amplitudes.front(),
+                     c.material.conversion->method, c.material.conversion->metric_error,
+                     c.remaining.peak, c.remaining.rms, c.remaining.albedo);
 }
 
 /// A problem as the last field: no commas, which would end it.
@@ -197,10 +195,17 @@ std::string problem_fields(std::string problem) {
   return ",,,,,,,," + problem;
 }
 
-/// The names of the target's amplitude and shape.
-std::array<std::string, 2> parameter_names(const std::string& to) {
-  const brdf::Model model("lambert+" + to);
-  return {model.amplitudes()[1].name, model.shape()[0].name};
+/// The row's own fields, as many as there are columns.
+std::string own_fields(const Row& row, const Columns& columns) {
+  std::vector<std::string> fields = row.fields;
+  fields.resize(columns.count);
+  return fmt::format("{}", fmt::join(fields, ","));
+}
+
+/// The lobe that a list is of, where its rows do not say.
+std::string usual_lobe(const Columns& columns, const ConvertArguments& arguments) {
+  if (!arguments.lobe.empty()) return arguments.lobe;
+  return columns.alpha >= 0 ? "ward" : "blinn-phong";
 }
 
 }  // namespace
@@ -209,22 +214,30 @@ void convert_csv(const ConvertArguments& arguments, Invocation& invocation) {
   if (arguments.json) {
     throw std::invalid_argument("convert CSV: the result is a CSV; --json is for one lobe");
   }
-  const std::string to = target_term_in(arguments);
+  refuse_overwriting(arguments.source, arguments.output);
   const material::ConversionOptions options = conversion_options_in(arguments);
   const LobeList list = read_lobes(arguments.source);
-  const auto [amplitude, shape] = parameter_names(to);
-  std::string text = fmt::format("{},to,to_{},to_{},method,metric_error,peak,rms,albedo,problem\n",
-                                 list.header, shape, amplitude);
+  const Columns& columns = list.columns;
+  const std::string usual = usual_lobe(columns, arguments);
+  const std::string to = target_term_in(arguments, default_target(usual));
+  const material::Amplitude convention = convention_in(arguments, columns);
+  std::string text =
+      fmt::format("{},to,to_{},to_{},method,metric_error,peak,rms,albedo,problem\n", list.header,
+                  material::shape_parameter(to).name, amplitude_name(to));
+  ProgressLine progress("converting " + arguments.source);
   for (const Row& row : list.rows) {
-    text += fmt::format("{},", fmt::join(row.fields, ","));
+    text += own_fields(row, columns) + ",";
     try {
-      text += result_fields(convert_row(list, row, arguments, to, options));
+      const std::string term = lobe_of(columns, row, usual);
+      text += result_fields(convert_row(columns, row, term, to, convention, options));
     } catch (const std::invalid_argument& error) {
       text += problem_fields(error.what());
       print_note(fmt::format("{}:{}: {}", arguments.source, row.line, error.what()));
       invocation.exit_status = 1;
     }
     text += '\n';
+    progress.set("converting " + arguments.source,
+                 double(&row - list.rows.data()) / double(list.rows.size()));
   }
   if (arguments.output.empty()) {
     print(text);

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "apps/gonio/convert.h"
+#include "apps/gonio/progress.h"
 #include "brdf/albedo.h"
 #include "material/evaluate.h"
 #include "material/material_json.h"
@@ -46,10 +47,12 @@ Conversion matt(const MtlMaterial& mtl) {
   material.conversion = material::ConversionRecord{.from = "lambert",
                                                    .method = "closed-form",
                                                    .metric = "cosine-l2",
+                                                   .metric_error = 0,
+                                                   .theta_i_deg = {},
                                                    .peak = 0,
                                                    .rms = 0,
                                                    .albedo = 0};
-  return {std::move(material), 0, {}};
+  return {std::move(material), {}};
 }
 
 Conversion convert_one(const MtlMaterial& mtl, const std::string& lobe, const std::string& to,
@@ -71,16 +74,21 @@ Conversion convert_one(const MtlMaterial& mtl, const std::string& lobe, const st
   return conversion;
 }
 
-/// A file name for the material: letters, digits, `-`, `_` and `.` stay; unlike any in `taken`,
-/// whatever the case.
+/// A file name for the material: letters of any script, digits, `-`, `_` and `.` stay; unlike any
+/// in `taken`, whatever the case.
 std::string file_name(const std::string& name, std::set<std::string>& taken) {
   std::string stem;
   for (const char c : name) {
     const bool stays = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       c == '-' || c == '_' || (c == '.' && !stem.empty());
+                       static_cast<unsigned char>(c) >= 0x80 || c == '-' || c == '_' ||
+                       (c == '.' && !stem.empty());
     stem += stays ? c : '_';
   }
-  if (stem.size() > 100) stem.resize(100);
+  std::size_t length = std::min<std::size_t>(stem.size(), 100);
+  // Not within a letter of several bytes.
+  while (length < stem.size() && (static_cast<unsigned char>(stem[length]) & 0xC0) == 0x80)
+    --length;
+  stem.resize(length);
   if (stem.empty()) stem = "material";
   const auto key = [](std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](char c) {
@@ -107,58 +115,62 @@ void create_folder(const std::string& folder) {
 
 /// Says where more light leaves than arrives.
 void note_gain(const std::string& source, const material::Material& material) {
-  const auto albedo = brdf::albedo(bind(material), 0, 0, 1e-3);
+  constexpr double tolerance = 1e-3;
+  const auto albedo = brdf::albedo(bind(material), 0, 0, tolerance);
   const double largest = *std::max_element(albedo.values.begin(), albedo.values.end());
-  if (largest <= 1) return;
+  if (largest <= 1 + 2 * tolerance) return;
   print_note(
       fmt::format("{}: {}: reflects {:.3g} times the light that arrives at normal incidence, as "
                   "its Kd and Ks do",
                   source, material.name, largest));
 }
 
-std::string numbers(const material::ParameterValue& parameter) {
+std::string numbers(const std::vector<double>& values) {
   std::string text;
-  for (const double value : parameter.value) {
-    text += fmt::format("{}{:.4g}", text.empty() ? "" : " ", value);
-  }
+  for (const double value : values) text += fmt::format("{}{:.4g}", text.empty() ? "" : " ", value);
   return text;
+}
+
+/// A name of at most 32 bytes that a terminal takes as text.
+std::string shown(const std::string& name) {
+  std::string text;
+  for (const char c : name) text += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  constexpr std::size_t most = 32;
+  return text.size() <= most ? text : text.substr(0, most - 3) + "...";
 }
 
 struct Converted {
   const MtlMaterial* mtl;
   Conversion conversion;
-  std::string file;  // empty without -o
+  std::string file;  // its name in the folder; empty without -o
 };
 
 std::string line_of(const Converted& entry, std::size_t name_width) {
-  const auto& material = entry.conversion.material;
   const auto& remaining = entry.conversion.remaining;
-  if (material.parameters.size() == 1) {
-    return fmt::format("  {:<{}}  {:>8}  {:>9}  {:<24}  {:>8} {:>8} {:>9}\n", material.name,
-                       name_width, "-", "-", "none", "exact", "exact", "exact");
-  }
-  return fmt::format("  {:<{}}  {:>8.5g}  {:>9.5g}  {:<24}  {:>8} {:>8} {:>9.3g}\n", material.name,
-                     name_width, entry.mtl->exponent, material.parameters[2].value.front(),
-                     numbers(material.parameters[1]), percent(remaining.peak),
-                     percent(remaining.rms), remaining.albedo);
+  const auto lobe = material::lobe_material_of(entry.conversion.material);
+  const std::string errors = lobe ? fmt::format("{:>8} {:>8} {:>9.3g}", percent(remaining.peak),
+                                                percent(remaining.rms), remaining.albedo)
+                                  : fmt::format("{:>8} {:>8} {:>9}", "exact", "exact", "exact");
+  return fmt::format("  {:<{}}  {:>8}  {:>9}  {:<24}  {}  {}\n", shown(entry.mtl->name), name_width,
+                     lobe ? fmt::format("{:.5g}", entry.mtl->exponent) : "-",
+                     lobe ? fmt::format("{:.5g}", lobe->lobe.shape) : "-",
+                     lobe ? numbers(lobe->lobe.amplitudes) : "none", errors, entry.file);
 }
 
 void print_list(const ConvertArguments& arguments, const std::string& lobe, const std::string& to,
                 const std::vector<Converted>& converted,
                 const material::ConversionOptions& options) {
-  const brdf::Model model("lambert+" + to);
   std::size_t width = 4;
-  for (const Converted& entry : converted) {
-    width = std::max(width, entry.conversion.material.name.size());
-  }
-  std::string text = fmt::format("{}: {} highlights (classic) as {}, {}{}\n\n", arguments.source,
-                                 lobe, model.name(), name(options.method),
-                                 arguments.output.empty() ? "" : ", in " + arguments.output);
-  text += fmt::format("  {:<{}}  {:>8}  {:>9}  {:<24}  {:>8} {:>8} {:>9}\n", "name", width, "Ns",
-                      model.shape()[0].name, model.amplitudes()[1].name + " (R G B)", "peak", "rms",
-                      "albedo");
+  for (const Converted& entry : converted) width = std::max(width, shown(entry.mtl->name).size());
+  std::string text =
+      fmt::format("{}: {} highlights (classic) as lambert+{}, {}{}\n\n", arguments.source, lobe, to,
+                  name(options.method), arguments.output.empty() ? "" : ", in " + arguments.output);
+  text +=
+      fmt::format("  {:<{}}  {:>8}  {:>9}  {:<24}  {:>8} {:>8} {:>9}  {}\n", "name", width, "Ns",
+                  material::shape_parameter(to).name, fmt::format("{} (R G B)", amplitude_name(to)),
+                  "peak", "rms", "albedo", arguments.output.empty() ? "" : "file");
   for (const Converted& entry : converted) text += line_of(entry, width);
-  print(text + "\n" + error_legend(options));
+  print(text + "\nOf the whole materials, diffuse part included.\n" + error_legend(options));
 }
 
 void print_json_of(const std::vector<Converted>& converted,
@@ -166,7 +178,10 @@ void print_json_of(const std::vector<Converted>& converted,
   nlohmann::ordered_json json;
   json["materials"] = nlohmann::ordered_json::array();
   for (const Converted& entry : converted) {
-    json["materials"].push_back(to_json(entry.conversion.material));
+    nlohmann::ordered_json material = to_json(entry.conversion.material);
+    if (!entry.file.empty()) material["file"] = entry.file;
+    material["notes"] = entry.mtl->notes;
+    json["materials"].push_back(material);
   }
   json["problems"] = nlohmann::ordered_json::array();
   for (const MtlMaterial& mtl : library) {
@@ -177,50 +192,66 @@ void print_json_of(const std::vector<Converted>& converted,
   print_json(json);
 }
 
+/// Converts what is usable; what turns out not to be gets its problem.
+std::vector<Converted> convert_all(std::vector<MtlMaterial>& library, const std::string& source,
+                                   const std::string& lobe, const std::string& to,
+                                   const material::ConversionOptions& options) {
+  std::vector<Converted> converted;
+  ProgressLine progress("converting " + source);
+  for (MtlMaterial& mtl : library) {
+    progress.set("converting " + source, double(&mtl - library.data()) / double(library.size()));
+    if (!mtl.problem.empty()) continue;
+    try {
+      converted.push_back({&mtl, convert_one(mtl, lobe, to, options), {}});
+    } catch (const std::invalid_argument& error) {
+      mtl.problem = fmt::format("{}: line {}: material '{}': {}", source, mtl.line, shown(mtl.name),
+                                error.what());
+    }
+  }
+  return converted;
+}
+
+void print_notes(const std::vector<MtlMaterial>& library, const std::string& source) {
+  for (const MtlMaterial& mtl : library) {
+    for (const std::string& note : mtl.notes) {
+      print_note(fmt::format("{}: {}: {}", source, shown(mtl.name), note));
+    }
+    if (!mtl.problem.empty()) print_note(mtl.problem);
+  }
+}
+
 }  // namespace
 
 void convert_mtl(const ConvertArguments& arguments, Invocation& invocation) {
+  const std::string& source = arguments.source;
   const std::string lobe = lobe_in(arguments);
-  const std::string to = target_term_in(arguments);
+  const std::string to = target_term_in(arguments, "ward");
   const material::ConversionOptions options = conversion_options_in(arguments);
   std::vector<MtlMaterial> library =
-      material::read_wavefront_mtl(arguments.source, default_exponent_in(arguments));
+      material::read_wavefront_mtl(source, default_exponent_in(arguments));
   create_folder(arguments.output);
+  std::vector<Converted> converted = convert_all(library, source, lobe, to, options);
+  print_notes(library, source);
 
-  std::vector<Converted> converted;
+  const SourceFile file = source_file(source);
   std::set<std::string> taken;
-  for (MtlMaterial& mtl : library) {
-    for (const std::string& note : mtl.notes) {
-      print_note(fmt::format("{}: {}: {}", arguments.source, mtl.name, note));
-    }
-    if (mtl.problem.empty()) {
-      try {
-        converted.push_back({&mtl, convert_one(mtl, lobe, to, options), {}});
-      } catch (const std::invalid_argument& error) {
-        mtl.problem =
-            fmt::format("{}:{}: {}: {}", arguments.source, mtl.line, mtl.name, error.what());
-      }
-    }
-    if (!mtl.problem.empty()) {
-      print_note(mtl.problem);
-      invocation.exit_status = 1;
-      continue;
-    }
-    Converted& entry = converted.back();
-    set_provenance(entry.conversion.material, arguments.source, invocation);
-    note_gain(arguments.source, entry.conversion.material);
+  for (Converted& entry : converted) {
+    material::Material& material = entry.conversion.material;
+    set_provenance(material, file, invocation);
+    note_gain(source, material);
     if (arguments.output.empty()) continue;
-    entry.file = (fs::path(arguments.output) / file_name(mtl.name, taken)).string();
-    write_material(entry.conversion.material, entry.file);
+    entry.file = file_name(entry.mtl->name, taken);
+    write_material(material, (fs::path(arguments.output) / entry.file).string());
   }
   if (arguments.json) {
     print_json_of(converted, library);
   } else {
     print_list(arguments, lobe, to, converted, options);
   }
-  const std::size_t bad = library.size() - converted.size();
-  print_note(fmt::format("{}: {} of {} materials converted{}", arguments.source, converted.size(),
-                         library.size(), bad == 0 ? "" : "; the others are listed above"));
+  const bool is_complete = converted.size() == library.size();
+  if (!is_complete) invocation.exit_status = 1;
+  print_note(fmt::format("{}: {} of {} materials converted{}", source, converted.size(),
+                         library.size(), is_complete ? "" : "; the others are listed above"));
 }
 
 }  // namespace gonio::app

@@ -42,7 +42,10 @@ float gonio_strauss_attenuation(float complement) {
 // max(0, r.wo)^(3/(1-s)). At s = 1 its limit: 1 where wo is the mirror direction to the rounding of
 // the vectors (16 epsilon^2 of float), else 0.
 float gonio_strauss_lobe(float one_minus_s, float3 wi, float3 wo) {
-  if (one_minus_s > 0.0) return gonio_mirror_lobe(3.0 / one_minus_s, wi, wo);
+  // The larger of the two: a compiler that knows s = 1 sees no division by zero.
+  if (one_minus_s > 0.0) {
+    return gonio_mirror_lobe(3.0 / max(one_minus_s, gonio_smallest), wi, wo);
+  }
   return gonio_minus_log_mirror_cosine(wi, wo) > 2.3e-13 ? 0.0 : 1.0;
 }
 
