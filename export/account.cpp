@@ -36,7 +36,11 @@ std::string parameters_text(const material::Material& material) {
 
 }  // namespace
 
-std::string number_text(double value) { return fmt::format("{:.12g}", value); }
+std::string number_text(double value) {
+  // What a fit leaves of a 0.
+  constexpr double nothing = 1e-12;
+  return fmt::format("{:.12g}", std::abs(value) < nothing ? 0 : value);
+}
 
 double as_written(double value) {
   const std::string text = number_text(value);
@@ -59,7 +63,8 @@ std::vector<std::string> origin_lines(const material::Material& material) {
   return {
       fmt::format("written by gonio {}", GONIO_VERSION),
       one_line(fmt::format("material: {}", material.name)),
-      one_line(fmt::format("model: {}; {}", material.model, parameters_text(material))),
+      one_line(fmt::format("model: {}; channels {}; {}", material.model,
+                           fmt::join(material.channels, ", "), parameters_text(material))),
   };
 }
 
@@ -83,13 +88,30 @@ std::string plain_name(std::string_view name) {
   return plain;
 }
 
-void warn_of_large_loss(Exported& exported) {
-  constexpr double large = 0.5;
-  if (exported.loss.rms <= large) return;
-  exported.warnings.push_back(fmt::format(
-      "the target has nothing like this model: the stand-in is off by {:.0f} % of the reflected "
-      "radiance (rms)",
-      100 * exported.loss.rms));
+void add_warnings(const RgbMaterial& material, Exported& exported) {
+  constexpr double large_rms = 0.5;
+  constexpr double large_albedo = 0.2;
+  constexpr double stretched = 8;
+  const auto warn = [&](std::string text) { exported.warnings.push_back(std::move(text)); };
+  if (exported.loss.rms > large_rms || std::abs(exported.loss.albedo) > large_albedo) {
+    warn(fmt::format(
+        "the target has nothing like this model: the stand-in is off by {:.0f} % of the "
+        "reflected radiance (rms), and by {:+.2f} in albedo",
+        100 * exported.loss.rms, exported.loss.albedo));
+  }
+  const double anisotropy = material::largest_anisotropy(material.model);
+  if (anisotropy > stretched) {
+    warn(
+        fmt::format("the lobe is {:.0f} times as wide one way as the other: the stand-in and its "
+                    "loss are known roughly only",
+                    anisotropy));
+  }
+  if (material.tangents.size() > 1 && material.tangents[0] != material.tangents[1]) {
+    warn("the material has two tangents and the stand-in has one of them");
+  }
+  if (material.channels.is_invisible) {
+    warn("not all wavelengths are visible: red, green and blue stand for others");
+  }
 }
 
 bool is_exact(const material::Difference& loss) {

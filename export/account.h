@@ -12,7 +12,7 @@
 
 namespace gonio::exports {
 
-/// A number to 12 digits, as it stands in exported files.
+/// A number to 12 digits, as it stands in exported files; 0 for less than 1e-12.
 std::string number_text(double value);
 
 /// The number that number_text() reads as.
@@ -32,8 +32,10 @@ std::vector<std::string> account(const RgbMaterial& material, const Exported& ex
 /// other characters become '_'.
 std::string plain_name(std::string_view name);
 
-/// Adds a warning if the loss says that the stand-in is no likeness.
-void warn_of_large_loss(Exported& exported);
+/// Adds what a user of red, green and blue has to know: a loss that says that the stand-in is no
+/// likeness (over 50 % rms, or 0.2 of albedo), a lobe too stretched to be compared well, a second
+/// tangent, wavelengths that nobody sees.
+void add_warnings(const RgbMaterial& material, Exported& exported);
 
 /// True if the difference is none but rounding.
 bool is_exact(const material::Difference& loss);

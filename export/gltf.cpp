@@ -241,7 +241,7 @@ Exported to_gltf(const material::Material& material) {
         "glTF takes the tangent from the mesh: it needs tangents, or texture coordinates and a "
         "normal texture, whose tangent is the table's x");
   }
-  warn_of_large_loss(exported);
+  add_warnings(rgb, exported);
   const Json asset = asset_json(rgb, properties, exported);
   exported.files = {{"", asset.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"}};
   return exported;

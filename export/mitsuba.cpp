@@ -195,7 +195,7 @@ Exported to_mitsuba(const material::Material& material) {
       .fitted_as = (is_exact(bsdf.loss) ? "exact: " : "") + bsdf.described,
       .warnings = warnings_about(bsdf, anisotropic),
   };
-  warn_of_large_loss(exported);
+  add_warnings(rgb, exported);
   exported.files.push_back({"", file_text(rgb, bsdf, exported)});
   return exported;
 }

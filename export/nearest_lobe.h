@@ -52,11 +52,11 @@ inline std::vector<Sight> sights_of(const table::SampleTable& material, double t
 }
 
 /// About `count` of the sights, evenly over all of them. The stride shares no factor with the
-/// number of azimuths of a ring of directions.
+/// number of azimuths of a ring of directions: 23 on one side, 44 = 4 times 11 on both.
 inline std::vector<Sight> thinned(const std::vector<Sight>& sights, std::size_t count) {
   std::size_t stride = sights.size() / count;
   if (stride <= 1) return sights;
-  while (stride % 2 == 0 || stride % 3 == 0) ++stride;
+  while (stride % 2 == 0 || stride % 11 == 0 || stride % 23 == 0) ++stride;
   std::vector<Sight> some;
   for (std::size_t i = 0; i < sights.size(); i += stride) some.push_back(sights[i]);
   return some;

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "brdf/albedo.h"
 #include "export/account.h"
 #include "export/channel_wavelength.h"
 #include "export/relative_azimuth_table.h"
@@ -149,9 +150,11 @@ material::Difference loss_of(const material::Material& material, const brdf::Bou
 }
 
 /// Whether a black table would be nearer, or the table makes up light or loses it.
-bool is_useless(const material::Difference& loss) {
-  constexpr double most_albedo = 0.2;
-  return loss.rms > 1 || std::abs(loss.albedo) > most_albedo;
+bool is_useless(const material::Difference& loss, const brdf::BoundModel& model) {
+  constexpr double most_albedo = 0.2;  // of the material's own where that is above 1
+  const auto albedo = brdf::albedo(model, 0, 0, 0.01).values;
+  const double largest = *std::max_element(albedo.begin(), albedo.end());
+  return loss.rms > 1 || std::abs(loss.albedo) > most_albedo * std::max(1.0, largest);
 }
 
 std::vector<std::string> warnings_about(const material::Material& material,
@@ -327,7 +330,7 @@ Exported to_openmaterial(const material::Material& material, const std::string& 
   const RelativeAzimuthTable table = sampled(model, options);
   Exported exported;
   exported.loss = loss_of(material, model, table);
-  if (is_useless(exported.loss)) {
+  if (is_useless(exported.loss, model)) {
     refuse(
         material,
         fmt::format("its highlight is too narrow for a table of {} rows a wavelength (loss: {}): "

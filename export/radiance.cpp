@@ -40,7 +40,7 @@ Primitive nearest(std::string_view type, const RgbMaterial& rgb) {
 }
 
 Primitive with_smaller_loss(Primitive a, Primitive b) {
-  return b.loss.rms < a.loss.rms ? std::move(b) : std::move(a);
+  return b.loss.rms < a.loss.rms - exact_difference ? std::move(b) : std::move(a);
 }
 
 Primitive best_anisotropic(const RgbMaterial& rgb) {
@@ -118,7 +118,7 @@ Exported to_radiance(const material::Material& material) {
       .fitted_as = described(primitive),
       .warnings = warnings_about(primitive, rgb.model.model().is_anisotropic()),
   };
-  warn_of_large_loss(exported);
+  add_warnings(rgb, exported);
   std::string text;
   for (const std::string& line : account(rgb, exported)) text += "# " + line + "\n";
   text += "\n" + primitive_text(primitive, plain_name(material.name));

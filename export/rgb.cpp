@@ -55,6 +55,11 @@ std::optional<Channels> by_wavelength(const std::vector<std::string>& channels) 
   return differ ? std::optional(order) : std::nullopt;
 }
 
+bool is_invisible(const std::string& channel) {
+  const auto wavelength = wavelength_of_channel(channel);
+  return wavelength && (*wavelength < 380e-9 || *wavelength > 780e-9);
+}
+
 std::string statement_of(const std::vector<std::string>& channels, const Channels& order,
                          std::string_view how) {
   return fmt::format("R is the channel '{}', G '{}', B '{}'{}", channels[order[0]],
@@ -91,19 +96,34 @@ material::Incidence incidence_for(const brdf::Model& model, double tangent) {
   return incidence;
 }
 
+/// Refuses what no fit can follow: the squares of its values leave the numbers.
+void require_sane(const RgbMaterial& rgb) {
+  constexpr double brightest = 1e30;
+  for (const std::vector<double>& channel : rgb.samples.values) {
+    const double largest = *std::max_element(channel.begin(), channel.end());
+    if (largest <= brightest) continue;
+    throw table::FileError(fmt::format(
+        "material '{}': f_r reaches {:.2g} 1/sr, which no renderer shows: check its amplitudes",
+        rgb.material->name, largest));
+  }
+}
+
 }  // namespace
 
 std::optional<RgbChannels> find_rgb_channels(const material::Material& material) {
   const std::vector<std::string>& channels = material.channels;
   if (channels.size() == 1) {
-    return RgbChannels{{0, 0, 0}, fmt::format("R, G and B are the one channel '{}'", channels[0])};
+    return RgbChannels{{0, 0, 0},
+                       fmt::format("R, G and B are the one channel '{}'", channels[0]),
+                       is_invisible(channels[0])};
   }
   if (channels.size() != 3) return {};
   if (const auto order = by_name(channels)) {
-    return RgbChannels{*order, statement_of(channels, *order, "")};
+    return RgbChannels{*order, statement_of(channels, *order, ""), false};
   }
   if (const auto order = by_wavelength(channels)) {
-    return RgbChannels{*order, statement_of(channels, *order, ", by wavelength")};
+    return RgbChannels{*order, statement_of(channels, *order, ", by wavelength"),
+                       std::any_of(channels.begin(), channels.end(), is_invisible)};
   }
   return {};
 }
@@ -130,6 +150,7 @@ RgbMaterial rgb_material(const material::Material& material) {
   rgb.tangents = tangents_of(rgb.model);
   rgb.samples = material::sample(rgb_reflectance(rgb.model, rgb.channels), names,
                                  incidence_for(rgb.model.model(), rgb.tangents.front()));
+  require_sane(rgb);
   return rgb;
 }
 

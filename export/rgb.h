@@ -20,6 +20,8 @@ namespace gonio::exports {
 struct RgbChannels {
   std::array<std::size_t, 3> channel;
   std::string statement;
+  /// They are wavelengths outside 380 to 780 nm.
+  bool is_invisible = false;
 };
 
 /// Three channels R, G and B in any order and case; three wavelengths ("630nm", "465 nm"), the

@@ -29,8 +29,9 @@ material::Material with_rgb_in_order(const material::Material& material) {
 Exported to_shader(const material::Material& original, shader::Language language) {
   const material::Material material = with_rgb_in_order(original);
   Exported exported;
-  exported.fitted_as = fmt::format("exact: the model itself, in float arithmetic; channels {}",
-                                   fmt::join(material.channels, ", "));
+  exported.fitted_as = fmt::format(
+      "exact: the model itself; float arithmetic adds up to 5e-6 of the lobe's peak; channels {}",
+      fmt::join(material.channels, ", "));
   shader::SourceText text{.name = material.name, .header = origin_lines(material)};
   text.header.push_back(fmt::format("stand-in: {}", exported.fitted_as));
   exported.files.push_back({"", shader::function_source(bind(material), language, text)});

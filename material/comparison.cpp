@@ -86,6 +86,24 @@ double largest_albedo_difference(const table::SampleTable& table, std::span<cons
   return largest;
 }
 
+double brightest_radiance(const table::SampleTable& material,
+                          const table::SampleFilter& is_compared) {
+  double brightest = 0;
+  for (const std::vector<double>& channel : material.values) {
+    for (std::size_t i = 0; i < material.size(); ++i) {
+      if (is_compared(i)) brightest = std::max(brightest, channel[i] * material.wi.z[i]);
+    }
+  }
+  return brightest;
+}
+
+/// Of the lobe along x and along y, from its two shape parameters there: roughness, or exponents,
+/// whose roots are the inverse of a width.
+double ratio_of_widths(const brdf::Parameter& along_x, double x, double y) {
+  if (along_x.scale == brdf::Scale::logarithmic) return x / y;
+  return std::sqrt((1 + y) / (1 + x));
+}
+
 }  // namespace
 
 Reflectance reflectance_of(const brdf::BoundModel& model) {
@@ -123,17 +141,18 @@ table::SampleTable sample(const Reflectance& reflectance, std::span<const std::s
 Difference difference(const table::SampleTable& material, const Reflectance& stand_in) {
   const auto values = values_on(material, stand_in);
   const table::SampleFilter is_compared(material, largest_compared_theta_deg);
+  const double brightest = brightest_radiance(material, is_compared);
+  // Of the brightest: the squares of huge or tiny radiances would leave the numbers.
+  const double scale = brightest > 0 ? brightest : 1;
   Difference result;
-  double brightest = 0;
   double worst = 0;
   double squared_difference = 0;
   double squared_radiance = 0;
   for (std::size_t c = 0; c < material.channels.size(); ++c) {
     for (std::size_t i = 0; i < material.size(); ++i) {
       if (!is_compared(i)) continue;
-      const double radiance = material.values[c][i] * material.wi.z[i];
-      const double apart = std::abs(values[c][i] * material.wi.z[i] - radiance);
-      brightest = std::max(brightest, radiance);
+      const double radiance = material.values[c][i] * material.wi.z[i] / scale;
+      const double apart = std::abs(values[c][i] * material.wi.z[i] / scale - radiance);
       if (apart > worst) {
         worst = apart;
         result.where = {degrees_of(material.wi.z[i]), degrees_of(material.wo.z[i]),
@@ -145,9 +164,23 @@ Difference difference(const table::SampleTable& material, const Reflectance& sta
     const double albedo = largest_albedo_difference(material, material.values[c], values[c]);
     if (std::abs(albedo) > std::abs(result.albedo)) result.albedo = albedo;
   }
-  result.peak = share(worst, brightest);
+  result.peak = share(worst, brightest / scale);
   result.rms = std::sqrt(share(squared_difference, squared_radiance));
   return result;
+}
+
+double largest_anisotropy(const brdf::BoundModel& model) {
+  double largest = 1;
+  const auto terms = model.model().terms();
+  const auto names = model.model().shape();
+  for (std::size_t p = 0; p + 1 < names.size(); ++p) {
+    const bool is_first_of_term = p == 0 || names[p - 1].term != names[p].term;
+    if (!is_first_of_term || !terms[names[p].term]->description.anisotropic) continue;
+    const double ratio =
+        ratio_of_widths(names[p].descriptor, model.shape()[p], model.shape()[p + 1]);
+    largest = std::max({largest, ratio, 1 / ratio});
+  }
+  return largest;
 }
 
 }  // namespace gonio::material

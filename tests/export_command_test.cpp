@@ -71,6 +71,18 @@ TEST(ExportCommand, GivesAShaderItsWavelengthsAsRedGreenBlue) {
               AllOf(HasSubstr("vec3(0.3, 0.2, 0.1)"), HasSubstr("channels 630nm, 525nm, 465nm")));
 }
 
+TEST(ExportCommand, WarnsOfWhatTheLossDoesNotSay) {
+  const TemporaryFolder folder;
+  const std::string stretched = folder.write(
+      "thin.json", R"({"format": "gonio-material", "version": 1, "model": "ward-gmd-aniso",
+      "channels": ["850nm", "940nm", "1550nm"], "parameters": {"rho_d": {"value": [0.1, 0.1, 0.1]},
+      "rho_s": {"value": [0.1, 0.1, 0.1]}, "alpha_x": {"value": 0.02}, "alpha_y": {"value": 0.3}}})");
+  const auto result = run_gonio({"export", stretched, "--to", "radiance"});
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("15 times as wide"), HasSubstr("not all wavelengths"),
+                                HasSubstr("channels 850nm, 940nm, 1550nm")));
+}
+
 TEST(ExportCommand, NamesTheSecondFileOfATargetAfterTheFirst) {
   const TemporaryFolder folder;
   const TemporaryFolder out;
@@ -112,6 +124,18 @@ TEST(ExportCommand, RefusesWrongUsageAndUnusableInputInOneLine) {
   EXPECT_EQ(channels.exit_status, 3);
   EXPECT_TRUE(is_one_line(channels.err)) << channels.err;
   EXPECT_EQ(run_gonio({"export", two_channels, "--to", "glsl"}).exit_status, 0);
+
+  const auto overwriting = run_gonio({"export", material, "--to", "gltf", "-o", material});
+  EXPECT_EQ(overwriting.exit_status, 2);
+  EXPECT_EQ(content_of(material), brass);
+
+  const std::string huge =
+      folder.write("huge.json", R"({"format": "gonio-material", "version": 1, "model": "ward",
+      "channels": ["Y"], "parameters": {"rho_d": {"value": [0.1]}, "rho_s": {"value": [1e300]},
+      "alpha": {"value": 0.1}}})");
+  const auto bright = run_gonio({"export", huge, "--to", "gltf"});
+  EXPECT_EQ(bright.exit_status, 3);
+  EXPECT_THAT(bright.err, HasSubstr("no renderer shows"));
 
   const auto nowhere = run_gonio({"export", material, "--to", "json", "-o", "/nowhere/x.json"});
   EXPECT_EQ(nowhere.exit_status, 3);

@@ -84,15 +84,14 @@ table::SampleTable samples_of(const material::Reflectance& reflectance,
                               const std::vector<double>& phi_deg) {
   const std::vector<std::string> channels{"R", "G", "B"};
   return material::sample(reflectance, channels,
-                          {.theta_deg = {0, 15, 30, 45, 60, 75}, .phi_deg = phi_deg});
+                          {.phi_deg = phi_deg, .both_sides = phi_deg.size() > 1});
 }
 
 /// The difference between a lobe and what the fit finds for it.
 template <class Lobe>
 double loss_of_own(const LobeValues<Lobe>& values, double tangent = 0) {
-  const auto samples = samples_of(
-      lobe_reflectance<Lobe>(values, tangent),
-      Lobe::parameters.size() % 2 == 0 ? std::vector<double>{0, 30, 60} : std::vector<double>{0});
+  // For a lobe without a tangent this is the same light twice.
+  const auto samples = samples_of(lobe_reflectance<Lobe>(values, tangent), {0, 40});
   const std::array tangents{tangent};
   const auto found = nearest_lobe<Lobe>(samples, tangents);
   return material::difference(samples, lobe_reflectance<Lobe>(found.values, found.tangent)).rms;

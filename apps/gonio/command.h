@@ -32,6 +32,9 @@ void add_synth_command(CLI::App& app, Invocation& invocation);
 /// A number that is the whole of a text, whatever the locale; nothing if it is none.
 std::optional<double> parse_number(std::string_view text);
 
+/// Throws std::invalid_argument if writing `output` would overwrite the file `source`.
+void refuse_overwriting(const std::string& source, const std::string& output);
+
 /// Writes text to stdout. Throws table::FileError when stdout cannot take it (a full disk).
 void print(std::string_view text);
 /// Prints indented JSON and a newline. Doubles read back to the same bits.

@@ -50,9 +50,6 @@ double checked_amplitude(std::string_view term, double value);
 double default_amplitude(std::string_view term);
 std::string default_target(std::string_view term);
 
-/// Throws std::invalid_argument if the output would overwrite the source.
-void refuse_overwriting(const std::string& source, const std::string& output);
-
 /// A number that an option gives. Throws std::invalid_argument that names the option.
 double number_of(std::string_view option, std::string_view text);
 

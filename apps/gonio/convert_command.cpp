@@ -143,13 +143,6 @@ bool wants_classic(const ConvertArguments& arguments) {
   return convention == material::Amplitude::classic;
 }
 
-void refuse_overwriting(const std::string& source, const std::string& output) {
-  std::error_code error;
-  if (output.empty() || !std::filesystem::equivalent(source, output, error)) return;
-  throw std::invalid_argument(
-      fmt::format("-o {}: would overwrite what is converted: name another file", output));
-}
-
 std::vector<material::ConversionMethod> methods_in(const ConvertArguments& arguments) {
   if (!arguments.method.empty()) {
     return {material::conversion_method_from_name(arguments.method)};

@@ -23,7 +23,7 @@ brdf::Model target_in(const ConvertArguments& arguments, const material::Materia
                              ? (lobe ? default_target(lobe->lobe.term) : "blinn-phong")
                              : arguments.to;
   const brdf::TermEntry& diffuse = *model.terms().front();
-  const brdf::Model given(to);
+  brdf::Model given(to);
   const bool is_bare = to.find('+') == std::string::npos && given.terms().size() == 2;
   if (!is_bare || diffuse.description.kind != brdf::TermKind::diffuse) return given;
   return brdf::Model(std::string(diffuse.description.name) + "+" + to);

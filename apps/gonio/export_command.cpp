@@ -73,7 +73,10 @@ void export_material(const ExportOptions& options) {
   std::vector<std::string> paths;
   for (const exports::ExportedFile& file : exported.files) {
     paths.push_back(path_of(options.output, file));
-    table::write_file(paths.back(), file.text);
+    refuse_overwriting(options.material, paths.back());
+  }
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    table::write_file(paths[k], exported.files[k].text);
   }
   if (options.json) {
     print_json(json_of(exported, target, paths));

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 
@@ -31,6 +32,13 @@ std::optional<double> parse_number(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+void refuse_overwriting(const std::string& source, const std::string& output) {
+  std::error_code error;
+  if (output.empty() || !std::filesystem::equivalent(source, output, error)) return;
+  throw std::invalid_argument(
+      fmt::format("-o {}: would overwrite what is read: name another file", output));
 }
 
 void print(std::string_view text) {
