@@ -181,7 +181,8 @@ TEST(ExportRadiance, StatesTheLossOfAModelThatItDoesNotHold) {
   EXPECT_THAT(exported.fitted_as, Not(HasSubstr("exact")));
   EXPECT_GT(exported.loss.rms, 0.01);
   EXPECT_THAT(text, HasSubstr("# loss of reflected radiance: " + loss_text(exported.loss) + "\n"));
-  EXPECT_THAT(text, HasSubstr("# model: lambert+ward; channels R, G, B; rho_d = (0.3, 0.2, 0.1); rho_s"));
+  EXPECT_THAT(text,
+              HasSubstr("# model: lambert+ward; channels R, G, B; rho_d = (0.3, 0.2, 0.1); rho_s"));
   // The sums over the fit's directions are good to about 1 % of the loss.
   EXPECT_NEAR(plain_loss_of(primitive_of(exported), material), exported.loss.rms,
               0.02 * exported.loss.rms);
