@@ -321,10 +321,10 @@ TEST(OpenMaterial, RefusesAHighlightTooNarrowForATable) {
 
 TEST(OpenMaterial, BearsTheMaterialItselfAndWhereItCameFrom) {
   material::Material material = glossy_paint();
-  material.provenance = material::MaterialProvenance{.table = "/home/somebody/paint.astm",
+  material.provenance = material::MaterialProvenance{.table = "/measured/by/somebody/paint.astm",
                                                      .sha256 = "abc",
                                                      .gonio = "",
-                                                     .command = "gonio fit /home/somebody"};
+                                                     .command = "gonio fit /measured/by/somebody"};
   const Exported exported = to_openmaterial(material, "paint");
   const json file = json::parse(exported.files[0].text);
   const json& own = file["materialProperties"]["customProperties"]["gonio"]["material"];
