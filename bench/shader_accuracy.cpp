@@ -19,14 +19,9 @@
 namespace gonio::bench {
 namespace {
 
-std::string text_of(const shader::DeviceDescription& device) {
-  return fmt::format("{} ({}; driver {}; Vulkan {})", device.name, shader::name_of(device.type),
-                     device.driver.empty() ? "unknown" : device.driver, device.api_version);
-}
-
 int list_devices() {
   const std::vector<shader::DeviceDescription> devices = shader::vulkan_devices();
-  for (const auto& device : devices) fmt::print("{}\n", text_of(device));
+  for (const auto& device : devices) fmt::print("{}\n", shader::text_of(device));
   if (devices.empty()) fmt::print(stderr, "shader_accuracy: no Vulkan device that computes\n");
   return devices.empty() ? 3 : 0;
 }
@@ -34,7 +29,7 @@ int list_devices() {
 int study(const ShaderAccuracySettings& settings, const std::string& device_name) {
   shader::VulkanDevice device(device_name);
   fmt::print("device: {}\n{} pairs of directions for each material; errors as fractions\n\n",
-             text_of(device.description()), settings.pairs);
+             shader::text_of(device.description()), settings.pairs);
   const auto ordinary = shader_accuracy(LobeWidths::ordinary, settings, device);
   fmt::print("alpha >= 1e-2, exponents <= 1e4: the figure is {:g}\n{}\n", shader_figure,
              shader_error_table(ordinary));

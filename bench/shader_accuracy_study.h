@@ -41,10 +41,8 @@ struct ShaderErrors {
   std::string model;
   std::string parameters;
   shader::Language language{};
-  /// |shader - model| as a fraction of the lobe's peak; where f_r is larger than anywhere at angles
-  /// up to 60 degrees, for some models grow without bound at grazing ones, as a fraction of that
-  /// f_r. The peak is the lobe's largest value in the channel at angles up to 60 degrees; the lobe
-  /// is all but the diffuse term, or the whole of a model that is one term.
+  /// |shader - model| as a fraction of the lobe's peak, or of f_r where that is larger
+  /// (trade/lobe_gauge.h).
   ShaderError worst;
   /// The same as a fraction of the peak everywhere.
   ShaderError worst_of_peak;
@@ -56,11 +54,6 @@ struct ShaderErrors {
   /// Values other than 0 on the horizon or below it.
   std::size_t lit_below_horizon = 0;
 };
-
-/// f_r as the shader function of the model gives it, [pair][channel].
-std::vector<float> shader_values(const brdf::BoundModel& model, shader::Language language,
-                                 const std::vector<DirectionPair<float>>& pairs,
-                                 shader::VulkanDevice& device);
 
 /// Both languages of one material.
 std::vector<ShaderErrors> shader_errors(const ShaderMaterial& material,

@@ -132,15 +132,4 @@ std::vector<DirectionPair<double>> shader_directions(const ShaderMaterial& mater
   return pairs;
 }
 
-DirectionPair<float> in_float(const DirectionPair<double>& pair) {
-  return {tests::as<float>(pair.wi), tests::as<float>(pair.wo)};
-}
-
-DirectionPair<double> in_double(const DirectionPair<float>& pair) {
-  const auto widened = [](const brdf::Direction<float>& w) {
-    return brdf::Direction<double>{w.x, w.y, w.z};
-  };
-  return {widened(pair.wi), widened(pair.wo)};
-}
-
 }  // namespace gonio::bench

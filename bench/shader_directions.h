@@ -13,21 +13,12 @@
 
 namespace gonio::bench {
 
-template <class D>
-struct DirectionPair {
-  brdf::Direction<D> wi, wo;
-};
+using brdf::DirectionPair;
 
 /// The pairs for a material's lobes; the same seed gives the same ones. Unit to rounding, and
 /// exactly mirrored where they are nearly so and the material is a mirror: of 1e-5 rad and less
 /// from the mirror direction float and double hold different vectors for mirrored.
 std::vector<DirectionPair<double>> shader_directions(const ShaderMaterial& material,
                                                      std::size_t count, std::uint64_t seed);
-
-/// The components rounded to float.
-DirectionPair<float> in_float(const DirectionPair<double>& pair);
-
-/// The components in double as they are.
-DirectionPair<double> in_double(const DirectionPair<float>& pair);
 
 }  // namespace gonio::bench

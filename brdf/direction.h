@@ -16,6 +16,12 @@ struct Direction {
   T x, y, z;
 };
 
+/// A direction to the light and one to the viewer.
+template <class T>
+struct DirectionPair {
+  Direction<T> wi, wo;
+};
+
 /// The direction with polar angle `theta` and azimuth `phi`, both in radians.
 inline Direction<double> direction_from_radians(double theta, double phi) {
   const double sin_theta = std::sin(theta);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "brdf/bound_model.h"
+#include "lut/table.h"
 #include "shader/language.h"
 
 namespace gonio::shader {
@@ -34,11 +35,26 @@ struct SourceText {
 std::string function_source(const brdf::BoundModel& model, Language language,
                             const SourceText& text);
 
+/// The same with the terms that the table serves read from it, as lut::TableModel does it. The text
+/// declares a function `float4 table_function(text)(float2 uv)`, which the shader around it has to
+/// define: it samples the table's texture at uv without mipmaps, clamped at the edges. Throws
+/// std::invalid_argument as lut::TableModel.
+std::string function_source(const brdf::BoundModel& model, const lut::Table& table,
+                            Language language, const SourceText& text);
+
+/// identifier_from(text.name) and `_table`.
+std::string table_function(const SourceText& text);
+
 /// A compute shader for Vulkan with that function: entry point `main`, groups of 64. Invocation i
 /// below the push constant `uint count` reads the floats 6 i to 6 i + 5 of the storage buffer at
 /// binding 0 of set 0 as wi and wo, and writes the channels' f_r to the floats from i times the
 /// number of channels of the one at binding 1.
 std::string evaluation_kernel(const brdf::BoundModel& model, Language language,
                               const SourceText& text);
+
+/// The same with the table as the sampled image at binding 2 of set 0, read by the sampler at
+/// binding 3 (VulkanDevice::run).
+std::string evaluation_kernel(const brdf::BoundModel& model, const lut::Table& table,
+                              Language language, const SourceText& text);
 
 }  // namespace gonio::shader

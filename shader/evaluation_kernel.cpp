@@ -64,14 +64,43 @@ std::string kernel_body(const std::string& name, std::size_t channels) {
   return body + "}\n";
 }
 
+/// The function that reads the table; its name goes where {} stands.
+constexpr std::string_view hlsl_table = R"(
+[[vk::binding(2, 0)]] Texture2D<float4> table_texture;
+[[vk::binding(3, 0)]] SamplerState table_sampler;
+float4 {}(float2 uv) {{
+  return table_texture.SampleLevel(table_sampler, uv, 0.0);
+}}
+)";
+
+constexpr std::string_view glsl_table = R"(
+layout(set = 0, binding = 2) uniform texture2D table_texture;
+layout(set = 0, binding = 3) uniform sampler table_sampler;
+vec4 {}(vec2 uv) {{
+  return textureLod(sampler2D(table_texture, table_sampler), uv, 0.0);
+}}
+)";
+
+/// The kernel around functions of the language.
+std::string kernel(const std::string& functions, const brdf::BoundModel& model, Language language,
+                   const SourceText& text) {
+  const std::string body = kernel_body(identifier_from(text.name), model.channel_count());
+  if (language == Language::hlsl) return functions + std::string(hlsl_buffers) + body;
+  return "#version 450\n" + functions + std::string(glsl_buffers) + glsl_from_hlsl(body);
+}
+
 }  // namespace
 
 std::string evaluation_kernel(const brdf::BoundModel& model, Language language,
                               const SourceText& text) {
-  const std::string function = function_source(model, language, text);
-  const std::string body = kernel_body(identifier_from(text.name), model.channel_count());
-  if (language == Language::hlsl) return function + std::string(hlsl_buffers) + body;
-  return "#version 450\n" + function + std::string(glsl_buffers) + glsl_from_hlsl(body);
+  return kernel(function_source(model, language, text), model, language, text);
+}
+
+std::string evaluation_kernel(const brdf::BoundModel& model, const lut::Table& table,
+                              Language language, const SourceText& text) {
+  const std::string reading = fmt::format(
+      fmt::runtime(language == Language::hlsl ? hlsl_table : glsl_table), table_function(text));
+  return kernel(function_source(model, table, language, text) + reading, model, language, text);
 }
 
 }  // namespace gonio::shader

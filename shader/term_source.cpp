@@ -122,11 +122,11 @@ bool has_tangent_angle(const brdf::TermEntry& term) {
   return !term.shape.empty() && term.shape.back().name == brdf::tangent_angle.name;
 }
 
-std::vector<ShapeConstant> shape_constants(const brdf::TermEntry& term,
+std::vector<ShapeConstant> shape_constants(const brdf::TermEntry& term, const TermSource& source,
                                            std::span<const double> values,
                                            std::string_view suffix) {
   std::vector<ShapeConstant> constants;
-  const Names& arguments = term_source(term).shape;
+  const Names& arguments = source.shape;
   for (auto argument = arguments.begin(); argument != arguments.end(); ++argument) {
     if (std::find(arguments.begin(), argument, *argument) != argument) continue;
     constants.push_back(shape_constant(term, values, *argument, suffix));

@@ -35,10 +35,10 @@ struct ShapeConstant {
   std::string meaning;
 };
 
-/// The constants that evaluating the term takes: the arguments of `shape`, each once, and with a
-/// free frame cos_psi and sin_psi, in two parts (turned.hlsl). `values`: as term.shape. `suffix`:
-/// what the names of the term's parameters end in.
-std::vector<ShapeConstant> shape_constants(const brdf::TermEntry& term,
+/// The constants that evaluating the term by `source` takes: the arguments of `shape`, each once,
+/// and with a free frame cos_psi and sin_psi, in two parts (turned.hlsl). `values`: as term.shape.
+/// `suffix`: what the names of the term's parameters end in.
+std::vector<ShapeConstant> shape_constants(const brdf::TermEntry& term, const TermSource& source,
                                            std::span<const double> values, std::string_view suffix);
 
 /// Whether the term's tangent has an angle of its own.

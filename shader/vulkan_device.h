@@ -15,6 +15,8 @@
 #include <string_view>
 #include <vector>
 
+#include "lut/texture.h"
+
 namespace gonio::shader {
 
 /// There is no Vulkan loader, no driver, or no device of Vulkan 1.1 that can compute; what() says
@@ -36,6 +38,16 @@ struct DeviceDescription {
 
 /// "discrete GPU", "CPU", ..
 std::string_view name_of(DeviceType type);
+
+/// "llvmpipe .. (CPU; driver llvmpipe, Mesa ..; Vulkan 1.3.230)"
+std::string text_of(const DeviceDescription& device);
+
+/// A texture and the filter of the sampler that reads it; the sampler clamps, and there are no
+/// mipmaps.
+struct SampledTexture {
+  const lut::Texture& texture;
+  lut::Filter filter = lut::Filter::linear;
+};
 
 /// The devices that VulkanDevice can open, the best first. Empty if there are drivers but no such
 /// device. Throws NoVulkanDevice without a loader or a driver.
@@ -63,10 +75,15 @@ class VulkanDevice {
   /// nothing if i is not below the push constant. What it does not write is 0. More elements than
   /// the device takes at once are done in turn, each part with buffers and an index of its own.
   ///
-  /// Throws std::invalid_argument if the sizes are no multiples of `count`, std::runtime_error with
-  /// the driver's message if it fails or has too little memory.
+  /// With a texture the shader finds it as a sampled image (binding 2 of set 0) and a sampler
+  /// (binding 3).
+  ///
+  /// Throws std::invalid_argument if the sizes are no multiples of `count` or the texture is larger
+  /// than the device's limit, std::runtime_error with the driver's message if it fails, has too
+  /// little memory, or does not filter the texture's format.
   std::vector<float> run(std::span<const std::uint32_t> spirv, std::span<const float> input,
-                         std::size_t output_size, std::uint32_t count);
+                         std::size_t output_size, std::uint32_t count,
+                         const SampledTexture* texture = nullptr);
 
  private:
   class Open;

@@ -18,6 +18,7 @@
 #include <string_view>
 #include <vector>
 
+#include "lut/table.h"
 #include "shader/glsl.h"
 #include "shader/hlsl_sources.h"
 #include "shader/identifier.h"
@@ -300,6 +301,88 @@ TEST(FunctionSource, OfEveryMaterialFitsIntoOneShader) {
     const std::size_t after_version = language == Language::glsl ? kernel.find('\n') + 1 : 0;
     EXPECT_NO_THROW(shader::compile(
         kernel.substr(0, after_version) + functions + kernel.substr(after_version), language));
+  }
+}
+
+/// A small table of the kind for the material.
+lut::Table table_of(const BoundModel& material, lut::TableKind kind) {
+  lut::Layout layout = lut::layout_for(material, kind);
+  layout.width = lut::least_size;
+  if (layout.height != 1) layout.height = lut::least_size;
+  layout.reach = lut::lobe_reach(layout);
+  return lut::bake(layout);
+}
+
+/// What a shader that includes the function has to add.
+std::string table_definition(const std::string& function) {
+  return "vec4 " + function + "(vec2 uv) { return vec4(uv, uv); }\n";
+}
+
+TEST(FunctionSourceWithTable, HasOnlyTheHelpersThatItNeeds) {
+  for (const Model& model : models()) {
+    const BoundModel material = drawn_material(model, 3, 3);
+    for (const lut::TableKind kind : lut::tables_for(model)) {
+      SCOPED_TRACE(model.name() + " by " + std::string(name_of(kind)));
+      const std::multiset<std::string> words = words_of(function_source(
+          material, table_of(material, kind), Language::hlsl, {.name = "drawn", .header = {}}));
+      for (const std::string& word : std::set<std::string>(words.begin(), words.end())) {
+        EXPECT_TRUE(!word.starts_with("gonio_") || words.count(word) >= 2) << word;
+      }
+      // Declared once, read once by each term.
+      EXPECT_GE(words.count("brdf_drawn_table"), 2U);
+    }
+  }
+}
+
+TEST(FunctionSourceWithTable, CompilesInGlslEsWithTheFunctionThatReadsTheTable) {
+  for (const Model& model : models()) {
+    const BoundModel material = drawn_material(model, 3, 6);
+    for (const lut::TableKind kind : lut::tables_for(model)) {
+      SCOPED_TRACE(model.name() + " by " + std::string(name_of(kind)));
+      const std::string function = function_source(material, table_of(material, kind),
+                                                   Language::glsl, {.name = "m", .header = {}});
+      EXPECT_EQ(complaint_of_glsl_es(function + table_definition("brdf_m_table")), "");
+    }
+  }
+}
+
+TEST(FunctionSourceWithTable, SaysWhichTextureItsFunctionReads) {
+  const BoundModel material = drawn_material(Model("ward"), 1, 7);
+  const std::string text = function_source(material, table_of(material, lut::TableKind::ward_lobe),
+                                           Language::glsl, {.name = "brass", .header = {}});
+  EXPECT_EQ(shader::table_function({.name = "brass", .header = {}}), "brdf_brass_table");
+  EXPECT_THAT(text, HasSubstr("// vec4 brdf_brass_table(vec2 uv)\n"));
+  EXPECT_THAT(text, HasSubstr("ward-lobe"));
+  EXPECT_THAT(text, HasSubstr("cosine, of 16 x 1 texels of the format r32f"));
+  EXPECT_THAT(text, HasSubstr("\nvec4 brdf_brass_table(vec2 uv);\n"));
+}
+
+TEST(FunctionSourceWithTable, RefusesTheTableOfAnotherMaterial) {
+  const BoundModel rough = drawn_material(Model("ward"), 1, 8);
+  const BoundModel other = drawn_material(Model("ward"), 1, 9);
+  const BoundModel phong = drawn_material(Model("phong"), 1, 8);
+  const lut::Table table = table_of(rough, lut::TableKind::ward_lobe);
+  const auto compose = [&](const BoundModel& material) {
+    return function_source(material, table, Language::hlsl, {.name = "m", .header = {}});
+  };
+  EXPECT_NO_THROW(compose(rough));
+  EXPECT_THROW(compose(other), std::invalid_argument);
+  EXPECT_THROW(compose(phong), std::invalid_argument);
+}
+
+TEST(EvaluationKernelWithTable, CompilesForEveryModelAndNumberOfChannels) {
+  for (const Model& model : models()) {
+    for (const lut::TableKind kind : lut::tables_for(model)) {
+      for (const Language language : languages) {
+        for (const std::size_t channels : {1U, 3U, 5U}) {
+          SCOPED_TRACE(model.name() + " by " + std::string(name_of(kind)));
+          const BoundModel material = drawn_material(model, channels, 4);
+          const std::string kernel = evaluation_kernel(material, table_of(material, kind), language,
+                                                       {.name = model.name(), .header = {}});
+          EXPECT_NO_THROW(shader::compile(kernel, language)) << kernel;
+        }
+      }
+    }
   }
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bench/shader_accuracy_study.h"
+#include "shader/evaluate.h"
 #include "tests/vulkan_device_or_skip.h"
 
 namespace gonio {
@@ -126,7 +127,7 @@ TEST_P(EveryShader, IsFiniteAtTheEdgesAndZeroBelowTheHorizon) {
   for (const LobeWidths widths : {LobeWidths::ordinary, LobeWidths::narrow}) {
     for (const ShaderMaterial& material : materials(widths)) {
       for (const shader::Language language : {shader::Language::hlsl, shader::Language::glsl}) {
-        const auto values = bench::shader_values(material.bound, language, pairs, device);
+        const auto values = shader::evaluate(device, material.bound, pairs, language);
         std::size_t lit = 0;
         for (std::size_t k = 0; k < values.size(); ++k) {
           const auto& [wi, wo] = pairs[k / material.bound.channel_count()];

@@ -26,7 +26,9 @@ void add_eval_command(CLI::App& app, Invocation& invocation);
 void add_export_command(CLI::App& app, Invocation& invocation);
 void add_fit_command(CLI::App& app, Invocation& invocation);
 void add_info_command(CLI::App& app, Invocation& invocation);
+void add_lut_command(CLI::App& app, Invocation& invocation);
 void add_models_command(CLI::App& app, Invocation& invocation);
+void add_render_command(CLI::App& app, Invocation& invocation);
 void add_synth_command(CLI::App& app, Invocation& invocation);
 
 /// A number that is the whole of a text, whatever the locale; nothing if it is none.

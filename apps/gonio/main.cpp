@@ -91,6 +91,8 @@ int run(int argc, char** argv) {
   add_albedo_command(app, invocation);
   add_convert_command(app, invocation);
   add_export_command(app, invocation);
+  add_lut_command(app, invocation);
+  add_render_command(app, invocation);
   add_models_command(app, invocation);
   add_synth_command(app, invocation);
   const std::vector<CLI::App*> commands = app.get_subcommands([](CLI::App*) { return true; });

@@ -3,25 +3,13 @@
 #ifndef GONIO_STRAUSS
 #define GONIO_STRAUSS
 
-#include "polar_sine.hlsl"
-#include "quarter_turns.hlsl"
-#include "quotient.hlsl"
-#include "strauss_reflection.hlsl"
-
-GonioStraussArgument gonio_strauss_angle(float3 w) {
-  float sine = gonio_polar_sine(w);
-  GonioStraussArgument argument;
-  argument.x = gonio_quarter_turns(sine, w.z);
-  argument.complement = gonio_quarter_turns(w.z, sine);
-  argument.x_per_cosine = gonio_quotient(argument.x, w.z);
-  argument.complement_per_cosine = gonio_quotient(argument.complement, w.z);
-  return argument;
-}
+#include "strauss_by_shares.hlsl"
+#include "strauss_shares.hlsl"
 
 float2 gonio_strauss(float s, float m, float one_minus_s, float one_minus_m,
                      float one_minus_t, float3 wi, float3 wo) {
-  GonioStraussShape shape = gonio_strauss_shape(s, m, one_minus_s, one_minus_m, one_minus_t);
-  return gonio_strauss_reflection(shape, gonio_strauss_angle(wi), gonio_strauss_angle(wo), wi, wo);
+  float2 shares = gonio_strauss_shares(s, m, one_minus_s, one_minus_m, one_minus_t);
+  return gonio_strauss_by_shares(shares, m, one_minus_s, one_minus_m, wi, wo);
 }
 
 #endif

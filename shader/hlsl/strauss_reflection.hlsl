@@ -3,9 +3,8 @@
 #ifndef GONIO_STRAUSS_REFLECTION
 #define GONIO_STRAUSS_REFLECTION
 
-#include "mirror_lobe.hlsl"
-#include "per_pi.hlsl"
 #include "quotient.hlsl"
+#include "strauss_sum.hlsl"
 
 // x and 1 - x, and both as multiples of the cosine, with which one of them goes to 0.
 struct GonioStraussArgument {
@@ -13,15 +12,6 @@ struct GonioStraussArgument {
   float complement;
   float x_per_cosine;
   float complement_per_cosine;
-};
-
-// The parameters, with their differences from 1, which would lose digits here.
-struct GonioStraussShape {
-  float s;
-  float m;
-  float one_minus_s;
-  float one_minus_m;
-  float one_minus_t;
 };
 
 // F(x) / x (.x) and (1 - F(x)) / (1 - x) (.y), kf = 1.12.
@@ -39,45 +29,17 @@ float gonio_strauss_attenuation(float complement) {
          (1.02 * distance_to_ks * distance_to_ks);
 }
 
-// max(0, r.wo)^(3/(1-s)). At s = 1 its limit: 1 where wo is the mirror direction to the rounding of
-// the vectors (16 epsilon^2 of float), else 0.
-float gonio_strauss_lobe(float one_minus_s, float3 wi, float3 wo) {
-  // The larger of the two: a compiler that knows s = 1 sees no division by zero.
-  if (one_minus_s > 0.0) {
-    return gonio_mirror_lobe(3.0 / max(one_minus_s, gonio_smallest), wi, wo);
-  }
-  return gonio_minus_log_mirror_cosine(wi, wo) > 2.3e-13 ? 0.0 : 1.0;
-}
-
-GonioStraussShape gonio_strauss_shape(float s, float m, float one_minus_s, float one_minus_m,
-                                      float one_minus_t) {
-  GonioStraussShape shape;
-  shape.s = s;
-  shape.m = m;
-  shape.one_minus_s = one_minus_s;
-  shape.one_minus_m = one_minus_m;
-  shape.one_minus_t = one_minus_t;
-  return shape;
-}
-
-// What the colour c multiplies (.x) and the rest (.y).
-float2 gonio_strauss_reflection(GonioStraussShape shape, GonioStraussArgument i,
-                                GonioStraussArgument o, float3 wi, float3 wo) {
+// What the colour c multiplies (.x) and the rest (.y); `shares` as gonio_strauss_shares().
+float2 gonio_strauss_reflection(float2 shares, float m, float one_minus_s, float one_minus_m,
+                                GonioStraussArgument i, GonioStraussArgument o, float3 wi,
+                                float3 wo) {
   float2 fresnel = gonio_strauss_fresnel(i.complement);
   float j = fresnel.x * i.x * gonio_strauss_attenuation(i.complement) *
             gonio_strauss_attenuation(o.complement);
-
-  float s = shape.s;
-  float dull = shape.one_minus_m + shape.m * shape.one_minus_s;  // d = 1 - m s
-  float diffuse = shape.one_minus_s * (1.0 + s + s * s) * shape.one_minus_t;  // Rd
-  float r = s * s * s * shape.one_minus_t;
-  float reflected = min(r + j * (r + 0.1), 1.0);  // R
-  float highlight = gonio_per_pi * gonio_strauss_lobe(shape.one_minus_s, wi, wo) * reflected;
-
-  float tinted = shape.m * min(fresnel.y * i.complement_per_cosine, gonio_largest);
-  float white = shape.one_minus_m * gonio_quotient(1.0, wi.z) +
-                shape.m * min(fresnel.x * i.x_per_cosine, gonio_largest);
-  return float2(gonio_per_pi * dull * diffuse + highlight * tinted, highlight * white);
+  float tinted = m * min(fresnel.y * i.complement_per_cosine, gonio_largest);
+  float white = one_minus_m * gonio_quotient(1.0, wi.z) +
+                m * min(fresnel.x * i.x_per_cosine, gonio_largest);
+  return gonio_strauss_sum(shares, j, float2(tinted, white), one_minus_s, wi, wo);
 }
 
 #endif

@@ -4,15 +4,13 @@
 #define GONIO_WARD
 
 #include "decay.hlsl"
-#include "pi.hlsl"
-#include "quotient.hlsl"
 #include "slope.hlsl"
 #include "ward_exponent.hlsl"
+#include "ward_lobe.hlsl"
 
 float gonio_ward(float alpha_x, float alpha_y, float3 h, float3 wi, float3 wo) {
   float exponent = gonio_ward_exponent(alpha_x, alpha_y, gonio_slope(h));
-  float roots = sqrt(wi.z) * sqrt(wo.z);
-  return gonio_quotient(gonio_decay(exponent), 4.0 * gonio_pi * alpha_x * alpha_y * roots);
+  return gonio_ward_lobe(gonio_decay(exponent), alpha_x, alpha_y, wi, wo);
 }
 
 #endif

@@ -6,16 +6,14 @@
 
 #include "decay.hlsl"
 #include "half_vector_length.hlsl"
-#include "pi.hlsl"
-#include "quotient.hlsl"
+#include "ward_lobe.hlsl"
 
 float gonio_ward_approx(float alpha_x, float alpha_y, float3 h, float3 wi, float3 wo) {
   float h_length = gonio_half_vector_length(h);
   float u = h.x / h_length / alpha_x;
   float v = h.y / h_length / alpha_y;
   float exponent = 2.0 * (u * u + v * v) / (1.0 + h.z / h_length);
-  float roots = sqrt(wi.z) * sqrt(wo.z);
-  return gonio_quotient(gonio_decay(exponent), 4.0 * gonio_pi * alpha_x * alpha_y * roots);
+  return gonio_ward_lobe(gonio_decay(exponent), alpha_x, alpha_y, wi, wo);
 }
 
 #endif

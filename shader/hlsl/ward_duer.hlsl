@@ -4,14 +4,13 @@
 #define GONIO_WARD_DUER
 
 #include "decay.hlsl"
-#include "pi.hlsl"
-#include "quotient.hlsl"
 #include "slope.hlsl"
+#include "ward_duer_lobe.hlsl"
 #include "ward_exponent.hlsl"
 
 float gonio_ward_duer(float alpha_x, float alpha_y, float3 h, float3 wi, float3 wo) {
   float exponent = gonio_ward_exponent(alpha_x, alpha_y, gonio_slope(h));
-  return gonio_quotient(gonio_decay(exponent), 4.0 * gonio_pi * alpha_x * alpha_y * wi.z * wo.z);
+  return gonio_ward_duer_lobe(gonio_decay(exponent), alpha_x, alpha_y, wi, wo);
 }
 
 #endif

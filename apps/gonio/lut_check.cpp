@@ -1,0 +1,218 @@
+// gonio lut check: a look-up table's error beside that of the fit whose parameters it serves.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "apps/gonio/device_option.h"
+#include "apps/gonio/lut_check_report.h"
+#include "apps/gonio/lut_command.h"
+#include "apps/gonio/lut_options.h"
+#include "apps/gonio/progress.h"
+#include "material/evaluate.h"
+#include "material/material_json.h"
+#include "table/file_error.h"
+#include "table/read.h"
+#include "trade/table_choice.h"
+
+namespace gonio::app {
+namespace {
+
+struct CheckOptions {
+  std::string material;
+  LutOptions lut;
+  std::string filter = "linear";
+  std::string device;
+  std::string samples;
+  std::string tolerance;
+  std::string max_theta = "80";
+  bool recommend = false;
+  bool json = false;
+};
+
+/// The samples that a material is checked on, or why there are none.
+struct Samples {
+  std::optional<table::SampleTable> table;
+  std::string path;
+  std::string reason;
+};
+
+table::SampleTable read_samples(const std::string& path) {
+  const ProgressLine progress("reading " + path);
+  return table::read(path);
+}
+
+/// The table that the material was fitted to, if it is still there and still the same.
+Samples samples_of(const material::Material& material) {
+  if (!material.provenance || material.provenance->table.empty()) {
+    return {std::nullopt, {}, "the material names no table; --samples TABLE does"};
+  }
+  const auto& [path, sha256, gonio, command] = *material.provenance;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    return {std::nullopt,
+            {},
+            fmt::format("the material's {} is not there; --samples TABLE names it", path)};
+  }
+  if (table::sha256_of_file(path) != sha256) {
+    return {
+        std::nullopt,
+        {},
+        fmt::format("the material's {} has changed since; --samples takes it all the same", path)};
+  }
+  return {read_samples(path), path, {}};
+}
+
+Samples samples_for(const CheckOptions& options, const material::Material& material) {
+  if (options.samples.empty()) return samples_of(material);
+  return {read_samples(options.samples), options.samples, {}};
+}
+
+double parse_number_within(std::string_view option, const std::string& text, double above,
+                           double most, std::string_view expected) {
+  const auto number = parse_number(text);
+  if (!number || !(*number > above && *number <= most)) {
+    throw std::invalid_argument(fmt::format("{}: found '{}', expected {}", option, text, expected));
+  }
+  return *number;
+}
+
+double tolerance_in(const CheckOptions& options) {
+  if (options.tolerance.empty()) return trade::half_display_step;
+  return parse_number_within("--tolerance", options.tolerance, 0, 1,
+                             "a fraction of the lobe's peak, above 0 and at most 1");
+}
+
+lut::Filter filter_in(const CheckOptions& options) {
+  if (options.filter == "linear") return lut::Filter::linear;
+  if (options.filter == "nearest") return lut::Filter::nearest;
+  throw std::invalid_argument(
+      fmt::format("--filter: found '{}', expected linear or nearest", options.filter));
+}
+
+void refuse_beside_recommend(const CheckOptions& options) {
+  for (const auto& [option, given] :
+       {std::pair{"--table", options.lut.table}, std::pair{"--size", options.lut.size},
+        std::pair{"--coordinate", options.lut.coordinate}, std::pair{"--reach", options.lut.reach},
+        std::pair{"--format", options.lut.format}}) {
+    if (given.empty()) continue;
+    throw std::invalid_argument(fmt::format(
+        "{} {}: --recommend chooses the table, expected one of the two", option, given));
+  }
+}
+
+/// As trade::check_table; a driver that fails is no reason to do without an answer.
+trade::TableCheck check_table(const brdf::BoundModel& model, const trade::Reference& reference,
+                              const trade::TableChoice& table, ChosenDevice& chosen) {
+  if (!chosen.device) return trade::check_table(model, reference, table, nullptr);
+  try {
+    return trade::check_table(model, reference, table, &*chosen.device);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(
+        fmt::format("{}: {}; --device cpu does without it", chosen.text, error.what()));
+  }
+}
+
+/// Checks the recommended tables in turn, until one stays within the tolerance on the device too:
+/// some filter 8 bits with 8 bits.
+void check_recommended(const brdf::BoundModel& model, const trade::Reference& reference,
+                       ChosenDevice& device, LutCheckReport& report) {
+  std::vector<trade::GoodTable>& tables = *report.recommended;
+  while (!tables.empty()) {
+    report.check = check_table(model, reference, tables.front().table, device);
+    if (within_tolerance(report)) return;
+    report.passed_over.push_back(*report.check);
+    tables.erase(tables.begin());
+    report.check.reset();
+  }
+}
+
+void check(const CheckOptions& options, Invocation& invocation) {
+  const double tolerance = tolerance_in(options);
+  const double max_theta_deg =
+      parse_number_within("--max-theta", options.max_theta, 0, 90, "degrees, above 0, at most 90");
+  const lut::Filter filter = filter_in(options);
+  if (options.recommend) refuse_beside_recommend(options);
+  const material::Material material = material::read_material(options.material);
+  const brdf::BoundModel model = material::bind(material);
+  const trade::TableChoice table{layout_from(options.lut, &model), filter};
+  ChosenDevice device = choose_device(options.device);
+  const Samples samples = samples_for(options, material);
+  const table::SampleTable* given = samples.table ? &*samples.table : nullptr;
+  const trade::Reference reference =
+      given != nullptr ? trade::reference_on_samples(model, material, *given, max_theta_deg)
+                       : trade::reference_on_grid(model);
+
+  LutCheckReport report{
+      .path = options.material,
+      .material = material,
+      .device = device.text,
+      .samples_path = given != nullptr ? std::optional(samples.path) : std::nullopt,
+      .no_samples = samples.reason,
+      .samples = reference.samples,
+      .grid = reference.pairs.size() - reference.samples,
+      .max_theta_deg = max_theta_deg,
+      .tolerance = tolerance,
+      .default_tolerance = options.tolerance.empty(),
+      .fit = trade::fit_errors(model, material, reference, given, max_theta_deg),
+      .check = {},
+      .recommended = {},
+      .passed_over = {}};
+  if (options.recommend) {
+    report.recommended =
+        trade::smallest_tables(model, reference, trade::limits_of(tolerance, report.fit.residual));
+    check_recommended(model, reference, device, report);
+  } else {
+    report.check = check_table(model, reference, table, device);
+  }
+  if (options.json) {
+    print_json(json_of(report));
+  } else {
+    print(text_of(report));
+  }
+  if (!within_tolerance(report)) invocation.exit_status = 1;
+}
+
+}  // namespace
+
+void add_lut_check_command(CLI::App& lut, Invocation& invocation) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* command = lut.add_subcommand(
+      "check", "The error of a look-up table beside that of the fit whose parameters it serves");
+  command->add_option("MATERIAL", options->material, "The material (JSON)")->required();
+  add_lut_options(*command, options->lut);
+  command->add_option("--filter", options->filter, "linear or nearest (default linear)")
+      ->type_name("FILTER");
+  add_device_option(*command, options->device);
+  command
+      ->add_option("--samples", options->samples,
+                   "The measured table whose directions count (default: the one that the material "
+                   "was fitted to, if it is there)")
+      ->type_name("TABLE");
+  command
+      ->add_option("--max-theta", options->max_theta,
+                   "Samples with a larger polar angle are left out, in degrees (default 80)")
+      ->type_name("DEG");
+  command
+      ->add_option("--tolerance", options->tolerance,
+                   "The largest error allowed, as a fraction of the specular lobe's peak (default "
+                   "1/510: half a step of an 8-bit display)")
+      ->type_name("X");
+  command->add_flag("--recommend", options->recommend,
+                    "Find the smallest table within the tolerance and 1 % of the fit's residual, "
+                    "and check that one");
+  command->add_flag("--json", options->json, "Print the result as JSON");
+  command->callback([options, &invocation] {
+    try {
+      check(*options, invocation);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("lut check {}: {}", options->material, error.what()));
+    }
+  });
+}
+
+}  // namespace gonio::app

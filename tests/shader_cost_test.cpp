@@ -1,0 +1,205 @@
+// bench/shader_cost: counting in a disassembly, and what the counts of the listings and models have
+// to be. Skipped where Mesa's RADV is not installed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "bench/shader_cost_study.h"
+#include "shader/disassembly.h"
+#include "shader/instruction_counts.h"
+#include "shader/stage_spirv.h"
+#include "tests/run_program.h"
+
+namespace gonio::tests {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+TEST(Disassembly, IsCountedByKind) {
+  const shader::OperationCounts counts = shader::count_operations(
+      "BB0:\n"
+      "\ts_load_dwordx4 s[4:7], s[2:3], null                         ; f4080101 fa000000\n"
+      "\ts_buffer_load_dwordx4 s[0:3], s[4:7], null                  ; f4280002 fa000000\n"
+      "\tv_rsq_f32_e32 v1, v1                                        ; 7e025d01\n"
+      "\tv_exp_f32_e32 v1, v1                                        ; 7e025d01\n"
+      "\tv_mul_f32_e32 v0, v2, v0\n"
+      "\n"
+      "BB1:\n"
+      "\timage_sample_lz v0, v[0:1], s[0:7], s[8:11] dmask:0x1 dim:SQ_RSRC_IMG_2D\n"
+      "\ts_nop 0                                                     ; bf800000\n"
+      "\t(then repeated 3 times)\n"
+      "\texp mrt0 v3, v4, v0, v2 done                                ; f800080f 02000403\n"
+      "\ts_endpgm");
+  EXPECT_EQ(counts.instructions, 12);
+  EXPECT_EQ(counts.transcendental, 2);
+  EXPECT_EQ(counts.texture_reads, 1);
+  EXPECT_EQ(counts.memory_loads, 2);
+}
+
+TEST(ShaderCost, ShadersCompileWhetherOrNotThereIsADriver) {
+  for (const bench::CostedShader& shader : bench::costed_shaders()) {
+    EXPECT_NO_THROW(shader::compile_drawing(shader.hlsl, shader::DrawingStage::fragment))
+        << shader.subject << ", " << shader.path << '\n'
+        << shader.hlsl;
+  }
+}
+
+/// The counts of two chips, of different generations.
+class ShaderCostOnChips : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (shader::radv_manifests().empty()) {
+      GTEST_SKIP() << "nothing compiles for GPU chips: no Mesa driver RADV (mesa-vulkan-drivers)";
+    }
+    const CommandResult result =
+        run_program({GONIO_SHADER_COST, "--json", "--chip", "polaris10", "navi21"});
+    ASSERT_EQ(result.exit_status, 0) << result.err;
+    chips_ = json::parse(result.out);
+    ASSERT_EQ(chips_.size(), 2U);
+  }
+
+  const json& chips() const { return chips_; }
+
+  static json shader_of(const json& chip, std::string_view subject, std::string_view path,
+                        std::string_view parameters) {
+    for (const json& shader : chip.at("shaders")) {
+      if (shader.at("subject") == subject && shader.at("path") == path &&
+          shader.at("parameters") == parameters) {
+        return shader;
+      }
+    }
+    ADD_FAILURE() << "no " << subject << ", " << path << ", " << parameters;
+    return {};
+  }
+
+  static int listing(const json& chip, std::string_view subject, std::string_view path,
+                     std::string_view number) {
+    return shader_of(chip, subject, path, "uniforms").at(std::string(number)).get<int>();
+  }
+
+ private:
+  json chips_;
+};
+
+TEST_F(ShaderCostOnChips, AreOfTheChipsThatWereAskedFor) {
+  EXPECT_THAT(chips()[0].at("device").get<std::string>(), HasSubstr("POLARIS10"));
+  EXPECT_THAT(chips()[1].at("device").get<std::string>(), HasSubstr("NAVI21"));
+}
+
+TEST_F(ShaderCostOnChips, OnlyTablesReadATextureAndTheyReadOne) {
+  for (const json& chip : chips()) {
+    int tables = 0;
+    for (const json& shader : chip.at("shaders")) {
+      const auto path = shader.at("path").get<std::string>();
+      const bool is_table = path == "512-texel table" || path.find(", cosine") != path.npos ||
+                            path.find(", sqrt") != path.npos;
+      tables += is_table ? 1 : 0;
+      EXPECT_EQ(shader.at("texture_reads"), is_table ? 1 : 0) << shader;
+    }
+    EXPECT_GT(tables, 1);
+  }
+}
+
+TEST_F(ShaderCostOnChips, TranscendentalOperationsAreThoseOfTheArithmetic) {
+  const std::string_view number = "transcendental";
+  for (const json& chip : chips()) {
+    // One root for each vector that is normalised.
+    EXPECT_EQ(listing(chip, "interface", "n, l and v alone", number), 3);
+    // Those, 1/x for each component of the factors A and B and for 1/max.
+    EXPECT_EQ(listing(chip, "Oren-Nayar", "no normalise, no root", number), 3 + 2 + 1);
+    // Those, two more normalisations and the root of both sines.
+    EXPECT_EQ(listing(chip, "Oren-Nayar", "van Ouwerkerk's rewrite", number), 6 + 2 + 1);
+    // n, l, v and h; 1/(n.h)^2, 1/r2 and one for the denominator; its root; exp.
+    EXPECT_EQ(listing(chip, "Ward isotropic", "1/(n.h)^2 - 1", number), 4 + 3 + 1 + 1);
+    // acos has a root at least; tan a sine, a cosine and a reciprocal for the one in 1/(n.h)^2.
+    EXPECT_GE(listing(chip, "Ward isotropic", "tan(acos(n.h))", number), 9 + 3);
+  }
+}
+
+TEST_F(ShaderCostOnChips, StableFormsTakeFewerTranscendentalOperationsThanTheNaiveOnes) {
+  for (const json& chip : chips()) {
+    EXPECT_LT(listing(chip, "Ward isotropic", "components of l + v", "transcendental"),
+              listing(chip, "Ward isotropic", "tan(acos(n.h))", "transcendental"));
+    EXPECT_LT(listing(chip, "lambert+ward", "analytic", "transcendental"),
+              listing(chip, "Ward isotropic", "tan(acos(n.h))", "transcendental"));
+    EXPECT_LT(listing(chip, "oren-nayar", "analytic", "transcendental"),
+              listing(chip, "Oren-Nayar", "sin and tan of the angles", "transcendental"));
+  }
+}
+
+TEST_F(ShaderCostOnChips, EveryShaderTakesMoreThanItsInterface) {
+  for (const json& chip : chips()) {
+    const int of_listings = listing(chip, "interface", "n, l and v alone", "instructions");
+    const int of_models = shader_of(chip, "interface", "wi and wo alone", "").at("instructions");
+    for (const json& shader : chip.at("shaders")) {
+      if (shader.at("subject") == "interface") continue;
+      const bool is_model =
+          shader.at("path") == "analytic" || shader.at("parameters") == "literals";
+      EXPECT_GT(shader.at("instructions"), is_model ? of_models : of_listings) << shader;
+      EXPECT_GT(shader.at("estimated_latency"), 0) << shader;
+      EXPECT_GT(shader.at("estimated_inverse_throughput"), 0) << shader;
+      EXPECT_GT(shader.at("vector_registers"), 0) << shader;
+      EXPECT_GT(shader.at("scalar_registers"), 0) << shader;
+    }
+  }
+}
+
+TEST_F(ShaderCostOnChips, LiteralsSpareInstructions) {
+  for (const json& chip : chips()) {
+    for (const json& shader : chip.at("shaders")) {
+      if (shader.at("path") != "analytic" || shader.at("parameters") != "literals") continue;
+      const auto subject = shader.at("subject").get<std::string>();
+      EXPECT_LT(shader.at("instructions"), listing(chip, subject, "analytic", "instructions"));
+      EXPECT_LT(shader.at("memory_loads"), listing(chip, subject, "analytic", "memory_loads"));
+    }
+  }
+}
+
+TEST_F(ShaderCostOnChips, StandBesideThePublishedFigures) {
+  for (const json& chip : chips()) {
+    std::multiset<int> published;
+    for (const json& shader : chip.at("shaders")) {
+      if (shader.contains("published_direct3d10")) {
+        published.insert(shader.at("published_direct3d10").get<int>());
+      }
+    }
+    EXPECT_EQ(published, (std::multiset<int>{33, 44, 46, 48, 71}));
+  }
+}
+
+TEST(ShaderCostCommand, SaysWhatIsMissingWithoutTheDriver) {
+  const TemporaryFolder empty;
+  const std::string nowhere = empty / "none";
+  const CommandResult result = run_program(
+      {"/usr/bin/env", "HOME=" + nowhere, "XDG_DATA_DIRS=" + nowhere, "XDG_DATA_HOME=" + nowhere,
+       "XDG_CONFIG_HOME=" + nowhere, "XDG_CONFIG_DIRS=" + nowhere, GONIO_SHADER_COST});
+  EXPECT_EQ(result.exit_status, 3);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr("no Mesa driver RADV"));
+  EXPECT_THAT(result.err, HasSubstr("mesa-vulkan-drivers"));
+}
+
+TEST(ShaderCostCommand, RefusesADriverThatIsNone) {
+  const TemporaryFolder folder;
+  const std::string manifest = folder.write("radeon_icd.json", "{}");
+  const CommandResult result = run_program({GONIO_SHADER_COST, "--icd", manifest});
+  EXPECT_EQ(result.exit_status, 3);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr("mesa-vulkan-drivers"));
+}
+
+TEST(ShaderCostCommand, RefusesAChipThatTheDriverDoesNotKnow) {
+  if (shader::radv_manifests().empty()) GTEST_SKIP() << "no Mesa driver RADV (mesa-vulkan-drivers)";
+  const CommandResult result = run_program({GONIO_SHADER_COST, "--chip", "abacus"});
+  EXPECT_EQ(result.exit_status, 3);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr("nothing counted for 'abacus'"));
+}
+
+}  // namespace
+}  // namespace gonio::tests
