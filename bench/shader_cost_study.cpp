@@ -5,7 +5,7 @@
 #include "bench/material_functions.h"
 #include "bench/material_shader.h"
 #include "bench/shader_cost_listings.h"
-#include "shader/stage_spirv.h"
+#include "shader/spirv.h"
 
 namespace gonio::bench {
 namespace {
@@ -65,11 +65,11 @@ std::vector<CostedShader> costed_shaders() {
 
 ChipCosts shader_costs() {
   const shader::ChipCompiler chip;
-  const auto vertex =
-      shader::compile_drawing(std::string(vertex_shader), shader::DrawingStage::vertex);
+  const auto vertex = shader::compile(vertex_shader, shader::Language::hlsl, shader::Stage::vertex);
   ChipCosts costs{chip.device_name(), {}};
   for (CostedShader& shader : costed_shaders()) {
-    const auto fragment = shader::compile_drawing(shader.hlsl, shader::DrawingStage::fragment);
+    const auto fragment =
+        shader::compile(shader.hlsl, shader::Language::hlsl, shader::Stage::fragment);
     shader::InstructionCounts counts = chip.count(vertex, fragment);
     costs.costs.push_back({std::move(shader), std::move(counts)});
   }

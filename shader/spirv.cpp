@@ -43,23 +43,36 @@ EShMessages message_rules(Language language) {
   return static_cast<EShMessages>(language == Language::hlsl ? rules | EShMsgReadHlsl : rules);
 }
 
-void set_target(glslang::TShader& shader, Language language) {
+EShLanguage glslang_stage(Stage stage) {
+  switch (stage) {
+    case Stage::vertex:
+      return EShLangVertex;
+    case Stage::fragment:
+      return EShLangFragment;
+    case Stage::compute:
+      break;
+  }
+  return EShLangCompute;
+}
+
+void set_target(glslang::TShader& shader, Language language, EShLanguage stage) {
   constexpr int glsl_of_vulkan = 100;
   shader.setEnvInput(language == Language::hlsl ? glslang::EShSourceHlsl : glslang::EShSourceGlsl,
-                     EShLangCompute, glslang::EShClientVulkan, glsl_of_vulkan);
+                     stage, glslang::EShClientVulkan, glsl_of_vulkan);
   shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
   shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
   shader.setEntryPoint("main");
   shader.setSourceEntryPoint("main");
 }
 
-std::vector<std::uint32_t> words_of(const glslang::TProgram& program, Language language) {
+std::vector<std::uint32_t> words_of(const glslang::TProgram& program, Language language,
+                                    EShLanguage stage) {
   glslang::SpvOptions options;
   options.disableOptimizer = false;  // HLSL has constructs that only its passes make legal SPIR-V
   options.validate = true;
   spv::SpvBuildLogger logger;
   std::vector<std::uint32_t> words;
-  const glslang::TIntermediate& program_tree = *program.getIntermediate(EShLangCompute);
+  const glslang::TIntermediate& program_tree = *program.getIntermediate(stage);
   if (program_tree.getNumEntryPoints() == 0) refuse(language, "there is no function main");
   glslang::GlslangToSpv(program_tree, words, &logger, &options);
   const std::string log = logger.getAllMessages();
@@ -69,23 +82,24 @@ std::vector<std::uint32_t> words_of(const glslang::TProgram& program, Language l
 
 }  // namespace
 
-std::vector<std::uint32_t> compile(std::string_view source, Language language) {
+std::vector<std::uint32_t> compile(std::string_view source, Language language, Stage stage) {
   static const Compiler compiler;
   constexpr int default_version = 450;  // of a GLSL text without #version
   const EShMessages rules = message_rules(language);
   const char* text = source.data();
   const int length = static_cast<int>(source.size());
 
-  glslang::TShader shader(EShLangCompute);
+  const EShLanguage own_stage = glslang_stage(stage);
+  glslang::TShader shader(own_stage);
   shader.setStringsWithLengths(&text, &length, 1);
-  set_target(shader, language);
+  set_target(shader, language, own_stage);
   if (!shader.parse(GetDefaultResources(), default_version, false, rules)) {
     refuse(language, shader.getInfoLog());
   }
   glslang::TProgram program;
   program.addShader(&shader);
   if (!program.link(rules)) refuse(language, program.getInfoLog());
-  return words_of(program, language);
+  return words_of(program, language, own_stage);
 }
 
 }  // namespace gonio::shader

@@ -11,7 +11,7 @@
 #include "bench/shader_cost_study.h"
 #include "shader/disassembly.h"
 #include "shader/instruction_counts.h"
-#include "shader/stage_spirv.h"
+#include "shader/spirv.h"
 #include "tests/run_program.h"
 
 namespace gonio::tests {
@@ -43,7 +43,7 @@ TEST(Disassembly, IsCountedByKind) {
 
 TEST(ShaderCost, ShadersCompileWhetherOrNotThereIsADriver) {
   for (const bench::CostedShader& shader : bench::costed_shaders()) {
-    EXPECT_NO_THROW(shader::compile_drawing(shader.hlsl, shader::DrawingStage::fragment))
+    EXPECT_NO_THROW(shader::compile(shader.hlsl, shader::Language::hlsl, shader::Stage::fragment))
         << shader.subject << ", " << shader.path << '\n'
         << shader.hlsl;
   }

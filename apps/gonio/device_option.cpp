@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 namespace gonio::app {
 namespace {
 
@@ -27,6 +29,11 @@ ChosenDevice choose_device(const std::string& name) {
     if (name.empty()) return {std::nullopt, fmt::format("the CPU: {}", error.what())};
     throw shader::NoVulkanDevice(
         fmt::format("--device {}: {}; or take --device cpu", name, error.what()));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(
+        fmt::format("--device {}: {}; or take --device cpu", name, error.what()));
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(fmt::format("{}; take --device cpu, or another one", error.what()));
   }
 }
 

@@ -1,12 +1,11 @@
 // gonio lut check: a look-up table's error beside that of the fit whose parameters it serves.
 #include <fmt/format.h>
 
-#include <cmath>
-#include <exception>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "apps/gonio/device_option.h"
 #include "apps/gonio/lut_check_report.h"
@@ -15,7 +14,6 @@
 #include "apps/gonio/progress.h"
 #include "material/evaluate.h"
 #include "material/material_json.h"
-#include "table/file_error.h"
 #include "table/read.h"
 #include "trade/table_choice.h"
 

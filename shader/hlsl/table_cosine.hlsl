@@ -4,9 +4,9 @@
 
 #include "table_position.hlsl"
 
-// The texture coordinate of w from 0; beyond reach that of 1.
+// The texture coordinate of w from 0; beyond reach that of more than 1, where the addressing clamps.
 float gonio_table_cosine(float w, float inverse_reach, float size) {
-  return gonio_table_position(min(w * inverse_reach, 1.0), size);
+  return gonio_table_position(w * inverse_reach, size);
 }
 
 #endif
