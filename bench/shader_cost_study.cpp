@@ -66,7 +66,7 @@ std::vector<CostedShader> costed_shaders() {
 ChipCosts shader_costs() {
   const shader::ChipCompiler chip;
   const auto vertex = shader::compile(vertex_shader, shader::Language::hlsl, shader::Stage::vertex);
-  ChipCosts costs{chip.device_name(), {}};
+  ChipCosts costs{chip.device_text(), {}};
   for (CostedShader& shader : costed_shaders()) {
     const auto fragment =
         shader::compile(shader.hlsl, shader::Language::hlsl, shader::Stage::fragment);

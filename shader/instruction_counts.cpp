@@ -8,6 +8,8 @@
 #include <utility>
 #include <vulkan/vulkan_raii.hpp>
 
+#include "shader/vulkan_instance.h"
+
 namespace gonio::shader {
 namespace {
 
@@ -221,7 +223,7 @@ auto with_advice(const Work& work) {
 /// The handles in the order in which they are made.
 class ChipCompiler::Open {
  public:
-  std::string device_name() const { return physical_.getProperties().deviceName.data(); }
+  std::string device_text() const { return text_of(describe(physical_)); }
 
   InstructionCounts count(std::span<const std::uint32_t> vertex,
                           std::span<const std::uint32_t> fragment) const {
@@ -269,7 +271,7 @@ ChipCompiler::ChipCompiler(ChipCompiler&&) noexcept = default;
 ChipCompiler& ChipCompiler::operator=(ChipCompiler&&) noexcept = default;
 ChipCompiler::~ChipCompiler() = default;
 
-std::string ChipCompiler::device_name() const { return open_->device_name(); }
+std::string ChipCompiler::device_text() const { return open_->device_text(); }
 
 InstructionCounts ChipCompiler::count(std::span<const std::uint32_t> vertex_spirv,
                                       std::span<const std::uint32_t> fragment_spirv) const {

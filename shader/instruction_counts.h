@@ -56,8 +56,8 @@ class ChipCompiler {
   ChipCompiler& operator=(ChipCompiler&&) noexcept;
   ~ChipCompiler();
 
-  /// As the driver states it.
-  std::string device_name() const;
+  /// As the driver states it, with its version.
+  std::string device_text() const;
 
   /// Of the fragment shader in a pipeline with the vertex shader, one RGBA32F target and no
   /// depth; both have the entry point `main`, and the vertex shader may read three float3, at the

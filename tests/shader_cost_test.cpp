@@ -3,10 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bench/shader_cost_study.h"
 #include "shader/disassembly.h"
@@ -170,6 +174,66 @@ TEST_F(ShaderCostOnChips, StandBesideThePublishedFigures) {
     }
     EXPECT_EQ(published, (std::multiset<int>{33, 44, 46, 48, 71}));
   }
+}
+
+/// The cells of a line of a table of a page.
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream parts(line);
+  std::string part;
+  std::getline(parts, part, '|');  // before the first stroke
+  while (std::getline(parts, part, '|')) {
+    const std::size_t first = part.find_first_not_of(' ');
+    const std::size_t last = part.find_last_not_of(' ');
+    cells.push_back(first == part.npos ? "" : part.substr(first, last - first + 1));
+  }
+  return cells;
+}
+
+/// What the page calls the numbers.
+const std::map<std::string, std::string> columns_of_the_page{
+    {"instr", "instructions"},
+    {"transc", "transcendental"},
+    {"latency", "estimated_latency"},
+    {"busy", "estimated_inverse_throughput"}};
+
+TEST_F(ShaderCostOnChips, AreWhatThePageSays) {
+  const std::string version_of_the_page = "Mesa 22.3.6";
+  if (chips()[0].at("device").get<std::string>().find(version_of_the_page) == std::string::npos) {
+    GTEST_SKIP() << "docs/shaders.md tells what " << version_of_the_page << " compiles; here is "
+                 << chips()[0].at("device");
+  }
+  std::istringstream page(content_of(GONIO_SOURCE_DIR "/docs/shaders.md"));
+  std::vector<std::string> columns;
+  std::string subject;
+  std::string line;
+  int rows = 0;
+  while (std::getline(page, line)) {
+    const std::vector<std::string> cells = cells_of(line);
+    if (cells.size() > 2 && cells[1] == "path") columns = cells;
+    const bool is_row = cells.size() == columns.size() && cells.size() > 2 && cells[1] != "path" &&
+                        cells[0].find("---") == std::string::npos;
+    if (!is_row) {
+      if (cells.empty()) columns.clear();
+      continue;
+    }
+    ++rows;
+    if (!cells[0].empty()) subject = cells[0];
+    const bool is_listing = columns[0] == "listing";
+    const bool is_table = !is_listing && cells[1] != "analytic";
+    for (std::size_t k = 2; k < cells.size(); ++k) {
+      const auto number = columns_of_the_page.find(columns[k]);
+      if (number == columns_of_the_page.end()) continue;
+      const auto on = [&](const json& chip) {
+        const std::string parameters = !is_listing ? "literals" : "uniforms";
+        const std::string path = cells[1] + (is_table ? ", cosine" : "");
+        return shader_of(chip, subject, path, parameters).at(number->second).get<int>();
+      };
+      EXPECT_EQ(cells[k], std::to_string(on(chips()[1])) + " / " + std::to_string(on(chips()[0])))
+          << subject << ", " << cells[1] << ", " << columns[k];
+    }
+  }
+  EXPECT_GT(rows, 20);
 }
 
 TEST(ShaderCostCommand, SaysWhatIsMissingWithoutTheDriver) {
