@@ -1,6 +1,9 @@
 #include "bench/material_shader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -16,6 +19,8 @@ float4 main([[vk::location(0)]] float3 to_light : LIGHT,
 }
 )";
 
+constexpr std::string_view material_signature = "float3 brdf_material(float3 wi, float3 wo) {";
+
 /// Declared by the function of a material with a table.
 constexpr std::string_view table_function = "brdf_material_table";
 
@@ -27,17 +32,15 @@ float4 brdf_material_table(float2 uv) {
 }
 )";
 
-struct Line {
-  std::string_view text;  // with its end
-  bool is_constant;       // a parameter: `  const float2 NAME = VALUE;`
-};
+/// Begins the line of a parameter: `  const float2 NAME = VALUE;`
+constexpr std::string_view qualifier = "  const ";
 
-std::vector<Line> lines_of(std::string_view text) {
-  std::vector<Line> lines;
+/// The lines, each with its end.
+std::vector<std::string_view> lines_of(std::string_view text) {
+  std::vector<std::string_view> lines;
   while (!text.empty()) {
     const std::size_t size = std::min(text.find('\n'), text.size() - 1) + 1;
-    const std::string_view line = text.substr(0, size);
-    lines.push_back({line, line.starts_with("  const float")});
+    lines.push_back(text.substr(0, size));
     text.remove_prefix(size);
   }
   return lines;
@@ -45,7 +48,6 @@ std::vector<Line> lines_of(std::string_view text) {
 
 /// `float2 NAME;` of a constant's line.
 std::string declaration_of(std::string_view line) {
-  constexpr std::string_view qualifier = "  const ";
   const std::string_view declaration = line.substr(qualifier.size());
   return std::string(declaration.substr(0, declaration.find(" ="))) + ";\n";
 }
@@ -64,18 +66,40 @@ std::string uniform_buffer(std::vector<std::string> declarations) {
   return buffer + "};\n";
 }
 
+/// Where the function of the material begins; before it stands what it calls.
+std::size_t begin_of_material(std::string_view text) {
+  const std::size_t begin = text.find(material_signature);
+  if (begin == text.npos) {
+    throw std::invalid_argument(fmt::format(
+        "uniforms: found no function '{}', expected that of a material in three channels",
+        material_signature));
+  }
+  return begin;
+}
+
+/// Makes sure that no parameter has stayed a number: then its cost would be a literal's.
+void check_uniforms(const std::vector<std::string>& uniforms, std::string_view rest) {
+  if (!uniforms.empty() && rest.find("const ") == rest.npos) return;
+  throw std::invalid_argument(
+      fmt::format("uniforms: found {} in the function, expected each parameter as a line '{}TYPE "
+                  "NAME = VALUE;', which shader/function_text.cpp writes",
+                  uniforms.empty() ? "no parameter" : "constants in other lines", qualifier));
+}
+
 /// The function with its parameters in a uniform buffer.
-std::string with_uniforms(std::string_view function) {
+std::string with_uniforms(std::string_view text) {
+  const std::size_t begin = begin_of_material(text);
   std::vector<std::string> uniforms;
   std::string rest;
-  for (const Line& line : lines_of(function)) {
-    if (line.is_constant) {
-      uniforms.push_back(declaration_of(line.text));
+  for (const std::string_view line : lines_of(text.substr(begin))) {
+    if (line.starts_with(qualifier)) {
+      uniforms.push_back(declaration_of(line));
     } else {
-      rest += line.text;
+      rest += line;
     }
   }
-  return uniform_buffer(std::move(uniforms)) + rest;
+  check_uniforms(uniforms, rest);
+  return uniform_buffer(std::move(uniforms)).append(text.substr(0, begin)).append(rest);
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ inline constexpr std::string_view material_name = "material";
 
 /// `function`: the HLSL text that function_source() gives for three channels and material_name. The
 /// one of a table reads it from a sampled image at binding 2 of set 0 with the sampler at
-/// binding 3.
+/// binding 3. Throws std::invalid_argument if the parameters are to be uniforms and are not found
+/// in the function, or not all of them.
 std::string material_pixel_shader(std::string_view function, ParameterSource source);
 
 /// The shader without a material: what its interface costs.

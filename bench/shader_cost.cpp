@@ -4,13 +4,14 @@
 //
 // It runs itself once for each chip, because a process has one (shader/instruction_counts.h).
 //
-// Exit status: 0 counted; 2 wrong usage; 3 no Mesa driver RADV, or one that does not compile for
-// the chip.
+// Exit status: 0 counted; 2 wrong usage; 3 no Mesa driver RADV, or one that has no null device or
+// does not compile for the chip.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,12 @@
 #include "bench/shader_cost_report.h"
 #include "bench/shader_cost_study.h"
 #include "bench/study_main.h"
+#include "shader/chip_environment.h"
 
 namespace gonio::bench {
 namespace {
+
+constexpr int nothing_counted = 3;  // as study_main() exits for NoChipCompiler
 
 struct Settings {
   std::vector<std::string> chips{"polaris10", "navi21"};
@@ -39,32 +43,39 @@ std::vector<std::filesystem::path> manifests_of(const Settings& settings) {
   return manifests;
 }
 
-/// What a process of its own prints for the chip.
-std::string counted(const std::string& chip, const Settings& settings) {
+/// What a process of its own prints for the chip, or nothing if it has said why it cannot.
+std::optional<std::string> counted(const std::string& chip, const Settings& settings) {
   std::vector<std::string> arguments{"--this-process", chip};
   if (settings.json) arguments.emplace_back("--json");
   const ProcessResult result =
       run_own_process(arguments, shader::chip_environment(chip, manifests_of(settings)));
   if (result.exit_status == 0) return result.out;
+  if (result.exit_status == nothing_counted) return std::nullopt;
   throw shader::NoChipCompiler(
-      fmt::format("nothing counted for '{}': {}", chip,
-                  result.exit_status < 0
-                      ? "RADV ended the process, as it does for a chip that it does not know"
-                      : "the reason is above; mesa-vulkan-drivers has the driver that is needed"));
+      fmt::format("nothing counted for '{}': RADV ended the process, as it does for a chip that it "
+                  "does not know, and in versions of Mesa that know none (26.2 and later)",
+                  chip));
 }
 
 int count_in_this_process(const Settings& settings) {
-  const ChipCosts costs = shader_costs();
-  fmt::print("{}", settings.json ? shader_cost_json(settings.own_chip, costs)
-                                 : shader_cost_table(settings.own_chip, costs));
-  return 0;
+  try {
+    const ChipCosts costs = shader_costs(settings.own_chip);
+    fmt::print("{}", settings.json ? shader_cost_json(settings.own_chip, costs)
+                                   : shader_cost_table(settings.own_chip, costs));
+    return 0;
+  } catch (const shader::NoChipCompiler& error) {
+    throw shader::NoChipCompiler(
+        fmt::format("nothing counted for '{}': {}", settings.own_chip, error.what()));
+  }
 }
 
 int count(const Settings& settings) {
   std::string text;
   for (const std::string& chip : settings.chips) {
+    const std::optional<std::string> part = counted(chip, settings);
+    if (!part) return nothing_counted;
     if (settings.json) text += text.empty() ? "" : ",\n";
-    text += counted(chip, settings);
+    text += *part;
   }
   fmt::print("{}", settings.json ? fmt::format("[{}]\n", text) : shader_cost_preface() + text);
   return 0;

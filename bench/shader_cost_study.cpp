@@ -63,14 +63,14 @@ std::vector<CostedShader> costed_shaders() {
   return shaders;
 }
 
-ChipCosts shader_costs() {
-  const shader::ChipCompiler chip;
+ChipCosts shader_costs(const std::string& chip) {
+  const shader::ChipCompiler compiler(chip);
   const auto vertex = shader::compile(vertex_shader, shader::Language::hlsl, shader::Stage::vertex);
-  ChipCosts costs{chip.device_text(), {}};
+  ChipCosts costs{compiler.device_text(), {}};
   for (CostedShader& shader : costed_shaders()) {
     const auto fragment =
         shader::compile(shader.hlsl, shader::Language::hlsl, shader::Stage::fragment);
-    shader::InstructionCounts counts = chip.count(vertex, fragment);
+    shader::InstructionCounts counts = compiler.count(vertex, fragment);
     costs.costs.push_back({std::move(shader), std::move(counts)});
   }
   return costs;

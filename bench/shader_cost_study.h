@@ -31,7 +31,7 @@ struct ChipCosts {
   std::vector<ShaderCost> costs;
 };
 
-/// On the chip of this process. Throws shader::NoChipCompiler.
-ChipCosts shader_costs();
+/// `chip`: as shader::ChipCompiler. Throws shader::NoChipCompiler.
+ChipCosts shader_costs(const std::string& chip);
 
 }  // namespace gonio::bench

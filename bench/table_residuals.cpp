@@ -44,7 +44,7 @@ void print_row(const TableResidual& result) {
   }
   const trade::TableCheck& check = *result.check;
   fmt::print("{:1} {:<25} {:<18} {:>9.2e} {:>8.3f} % {:>9.2e} {:>8}  {}\n", mark, result.name,
-             result.model, result.residual, 100 * result.share(), trade::largest_error(check),
+             result.model, result.residual, 100 * result.share(), trade::worst_error(check).largest,
              trade::size_of(check.table.layout), text_of(check.table));
 }
 

@@ -43,7 +43,8 @@ std::vector<MeasuredMaterial> paints(const std::string& data) {
 }
 
 double TableResidual::share() const {
-  return check ? trade::rms_error(*check) / residual : std::numeric_limits<double>::infinity();
+  return check ? trade::worst_error(*check).rms / residual
+               : std::numeric_limits<double>::infinity();
 }
 
 TableResidual table_residual(const MeasuredMaterial& measured, shader::VulkanDevice* device) {
@@ -59,8 +60,8 @@ TableResidual table_residual(const MeasuredMaterial& measured, shader::VulkanDev
       .model = material.model,
       .residual = trade::cosine_residual(model, material, samples, options.max_theta_deg),
       .check = {}};
-  const auto tables = trade::smallest_tables(
-      model, reference, trade::limits_of(trade::half_display_step, result.residual));
+  const auto limits = trade::limits_of(reference, trade::half_display_step, result.residual);
+  const auto tables = trade::smallest_tables(model, reference, trade::with_headroom(limits));
   if (!tables.empty()) {
     result.check = trade::check_table(model, reference, tables.front().table, device);
   }

@@ -88,14 +88,6 @@ std::vector<double> tangents_of(const brdf::BoundModel& model) {
   return tangents;
 }
 
-/// The default one, its azimuths counted from the first tangent: a quarter turn from there shows
-/// all that a lobe with two planes of symmetry does.
-material::Incidence incidence_for(const brdf::Model& model, double tangent) {
-  material::Incidence incidence = material::default_incidence(model);
-  for (double& phi_deg : incidence.phi_deg) phi_deg += tangent * (180 / std::numbers::pi);
-  return incidence;
-}
-
 /// Refuses what no fit can follow: the squares of its values leave the numbers.
 void require_sane(const RgbMaterial& rgb) {
   constexpr double brightest = 1e30;
@@ -142,14 +134,22 @@ RgbChannels rgb_channels(const material::Material& material) {
       channels.size() > named.size() ? ", ..." : ""));
 }
 
+material::Incidence incidence_for(const brdf::BoundModel& model) {
+  material::Incidence incidence = material::default_incidence(model.model());
+  // A quarter turn from the tangent shows all that a lobe with two planes of symmetry does.
+  const double tangent = tangents_of(model).front();
+  for (double& phi_deg : incidence.phi_deg) phi_deg += tangent * (180 / std::numbers::pi);
+  return incidence;
+}
+
 RgbMaterial rgb_material(const material::Material& material) {
   RgbMaterial rgb{&material, material::bind(material), rgb_channels(material), {}, {}};
   const std::array names{material.channels[rgb.channels.channel[0]],
                          material.channels[rgb.channels.channel[1]],
                          material.channels[rgb.channels.channel[2]]};
   rgb.tangents = tangents_of(rgb.model);
-  rgb.samples = material::sample(rgb_reflectance(rgb.model, rgb.channels), names,
-                                 incidence_for(rgb.model.model(), rgb.tangents.front()));
+  rgb.samples =
+      material::sample(rgb_reflectance(rgb.model, rgb.channels), names, incidence_for(rgb.model));
   require_sane(rgb);
   return rgb;
 }

@@ -44,6 +44,10 @@ struct RgbMaterial {
   std::vector<double> tangents;
 };
 
+/// Where a material's stand-ins are compared with it: material::default_incidence(), its azimuths
+/// counted from the first tangent.
+material::Incidence incidence_for(const brdf::BoundModel& model);
+
 /// Throws as rgb_channels() and material::bind() do.
 RgbMaterial rgb_material(const material::Material& material);
 

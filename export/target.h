@@ -5,6 +5,7 @@
 #include <string>
 
 #include "export/exported.h"
+#include "export/shader_table.h"
 #include "material/material.h"
 
 namespace gonio::exports {
@@ -16,6 +17,10 @@ struct Target {
   /// `stem` is that of the file's name, for targets of several files, which name one another.
   /// Throws table::FileError for a material that the target cannot hold in any way.
   Exported (*write)(const material::Material& material, const std::string& stem);
+  /// The same with what the table holds read from it; null for targets that read none. Throws
+  /// std::invalid_argument for a table of another material.
+  Exported (*write_with_table)(const material::Material& material,
+                               const ShaderTable& table) = nullptr;
 };
 
 /// All targets, by name.

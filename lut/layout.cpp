@@ -100,6 +100,15 @@ Bounds bounds_of(TableKind kind) {
   return {exponent.name, exponent.lower, exponent.upper};
 }
 
+void check_half_float(const Layout& layout) {
+  if (layout.storage != Storage::r16f) return;
+  if (layout.highest <= most_alphas_of_half * layout.lowest) return;
+  refuse(layout,
+         fmt::format("found alpha from {} to {} for the storage r16f, expected alphas within "
+                     "a factor of {}; r32f serves any",
+                     layout.lowest, layout.highest, most_alphas_of_half));
+}
+
 void check_parameters(const Layout& layout) {
   if (is_strauss(layout.kind)) {
     if (!(layout.transparency >= 0 && layout.transparency <= 1)) {
@@ -114,7 +123,10 @@ void check_parameters(const Layout& layout) {
            fmt::format("found {} from {} to {}, expected a range within {} to {}", bounds.name,
                        layout.lowest, layout.highest, bounds.lower, bounds.upper));
   }
-  if (layout.kind == TableKind::ward_exponent) return;
+  if (layout.kind == TableKind::ward_exponent) {
+    check_half_float(layout);
+    return;
+  }
   const bool one_value = layout.lowest == layout.highest;
   if (layout.height == 1 && !one_value) {
     refuse(layout,
@@ -215,6 +227,11 @@ void check(const Layout& layout) {
   check_size(layout);
   check_axis(layout);
   check_parameters(layout);
+}
+
+bool serves_any_alpha(const Layout& layout) {
+  return layout.kind == TableKind::ward_exponent && layout.reach == 1 &&
+         layout.storage == Storage::r32f;
 }
 
 double lobe_reach(const Layout& layout) {

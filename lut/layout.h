@@ -86,6 +86,15 @@ void check(const Layout& layout);
 /// exp(-x) is taken for 0 from here on: 1.1e-7, one step of a float at 1.
 inline constexpr double negligible_decay = 16;
 
+/// r16f holds ward-exponent for alphas up to so many times smaller than the largest: there half the
+/// step of its smallest numbers is 1e-4 of the exponent at the most, no more than the rounding of
+/// its others makes of the lobe.
+inline constexpr double most_alphas_of_half = 2000;
+
+/// Whether the table is ward-exponent for any alpha, whatever `lowest` and `highest` are: to the
+/// horizon, and of floats that need no scale.
+bool serves_any_alpha(const Layout& layout);
+
 /// The reach that the lobes of the parameters served need: where the widest is exp(-16) of its
 /// peak. 1 for the strauss tables.
 double lobe_reach(const Layout& layout);

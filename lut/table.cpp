@@ -98,14 +98,18 @@ std::array<double, most_channels> value_at(const Layout& layout, int column, int
 }  // namespace
 
 std::array<Decoding, most_channels> decoding_of(const Layout& layout) {
-  if (layout.kind != TableKind::ward_exponent || !is_integer(layout.storage)) return {};
+  if (layout.kind != TableKind::ward_exponent || layout.storage == Storage::r32f) return {};
   const double end = -negligible_decay * layout.highest * layout.highest;
-  return {Decoding{.scale = static_cast<float>(end), .offset = 0}};
+  if (is_integer(layout.storage)) return {Decoding{.scale = static_cast<float>(end), .offset = 0}};
+  // A power of two: it leaves the comparison with the end exact.
+  constexpr double largest_power_of_half = 0x1p15;
+  const double scale = std::exp2(std::ceil(std::log2(-end / largest_power_of_half)));
+  return {Decoding{.scale = static_cast<float>(scale), .offset = 0}};
 }
 
 float end_of_exponent(const Layout& layout) {
-  if (is_integer(layout.storage)) return decoding_of(layout)[0].scale;
-  return stored(-1e30, layout.storage);
+  const float last_texel = is_integer(layout.storage) ? 1 : stored(-1e30, layout.storage);
+  return decoding_of(layout)[0].scale * last_texel;
 }
 
 Table bake(const Layout& layout) {

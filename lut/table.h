@@ -8,9 +8,11 @@
 
 namespace gonio::lut {
 
-/// How a channel's value is found from what the texture gives: offset + scale * texel. 0 and 1 for
-/// the float storages; the integers cover -negligible_decay highest^2 .. 0 for ward-exponent, with
-/// 0 at the texel 0, and 0..1 for the others.
+/// How a channel's value is found from what the texture gives: offset + scale * texel. 0 and 1 but
+/// for ward-exponent, whose scale is chosen for the largest alpha served: the integers cover
+/// -negligible_decay highest^2 .. 0, with 0 at the texel 0; r16f holds the same in -2^15 .. 0,
+/// scaled by a power of two, so that lobes up to most_alphas_of_half times narrower end above the
+/// smallest half floats too.
 struct Decoding {
   float scale = 1;
   float offset = 0;
@@ -26,9 +28,9 @@ struct Table {
 std::array<Decoding, most_channels> decoding_of(const Layout& layout);
 
 /// ward-exponent: a value from here down means that the lobe is 0, and the last texel holds it (not
-/// in `listing`): a lobe's denominator may be as small as it likes. -1e30 for r32f and -65504 for
-/// r16f, of which exp(value / alpha^2) is 0 and the argument finite for every alpha; for the
-/// integers the end of their range, where a shader has to compare.
+/// in `listing`): a lobe's denominator may be as small as it likes. -1e30 for r32f, of which
+/// exp(value / alpha^2) is 0 and the argument finite for every alpha; for the others the end of
+/// what they hold (the texel 1, and -65504), where a shader has to compare.
 float end_of_exponent(const Layout& layout);
 
 /// Computes every texel in double and stores it; `listing` in float, as published. Throws as

@@ -315,13 +315,13 @@ Table read_table(Imf::InputFile& file) {
   Table table;
   table.layout = layout_of(header);
   table.decoding = decoding_of(table.layout);
-  check_decoding(header, table.decoding);
   table.texture = {.width = table.layout.width,
                    .height = table.layout.height,
                    .channels = channels_of(table.layout.kind),
                    .storage = table.layout.storage,
                    .texels = {}};
   check_channels(header, table.texture);
+  check_decoding(header, table.decoding);
   read_texels(file, table.texture);
   check_texels(table.texture);
   return table;

@@ -168,9 +168,9 @@ void check_serves(const Layout& table, const Layout& needed) {
   };
   switch (table.kind) {
     case TableKind::ward_exponent:
-      return;
     case TableKind::ward_lobe:
     case TableKind::blinn_phong_power:
+      if (serves_any_alpha(table)) return;
       if (needed.lowest < table.lowest || needed.highest > table.highest) {
         refuse(fmt::format("for {} to {}, the material's are {} to {}", table.lowest, table.highest,
                            needed.lowest, needed.highest));

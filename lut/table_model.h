@@ -27,7 +27,8 @@ namespace gonio::lut {
 class TableModel {
  public:
   /// The table must outlive it. Throws std::invalid_argument if no term of the model is in the
-  /// table (layout_for), or the table's rows, argument or transparency are not the material's.
+  /// table (layout_for), or the table's alphas, exponents, argument or transparency are not the
+  /// material's.
   TableModel(const brdf::BoundModel& model, const Table& table, Filter filter, Weights weights);
 
   /// As brdf::BoundModel::f_r: in 1/sr, every channel, finite, 0 below the horizon.

@@ -34,8 +34,12 @@ std::string row_text(const Layout& layout, std::string_view parameter) {
 
 std::string exponent_text(const Layout& layout) {
   const float scale = decoding_of(layout)[0].scale;
-  if (scale == 1) return fmt::format("E = exp(texel / alpha^2)\n{}", alpha_text);
-  return fmt::format("E = texel < 1 ? exp({:.9g} * texel / alpha^2) : 0\n{}", scale, alpha_text);
+  if (layout.storage == Storage::r32f) {
+    return fmt::format("E = exp(texel / alpha^2)\n{}", alpha_text);
+  }
+  return fmt::format("E = {} ? exp({:.9g} * texel / alpha^2) : 0\n{}",
+                     layout.storage == Storage::r16f ? "texel > -65504" : "texel < 1", scale,
+                     alpha_text);
 }
 
 std::string strauss_j_text(const Layout& layout) {
@@ -56,8 +60,7 @@ std::string served_text(const Layout& layout) {
   };
   switch (layout.kind) {
     case TableKind::ward_exponent:
-      if (layout.reach == 1 && decoding_of(layout)[0].scale == 1) return "any alpha";
-      return range("alpha");
+      return serves_any_alpha(layout) ? "any alpha" : range("alpha");
     case TableKind::ward_lobe:
       return range("alpha");
     case TableKind::blinn_phong_power:

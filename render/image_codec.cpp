@@ -47,7 +47,7 @@ bool encode(const EncodingRequest& request, std::string& result) {
 }  // namespace
 }  // namespace gonio::render
 
-extern "C" bool gonio_encode_image(const gonio::render::EncodingRequest& request,
-                                   std::string& result) {
+extern "C" bool gonio_encode_image_1(const gonio::render::EncodingRequest& request,
+                                     std::string& result) {
   return gonio::render::encode(request, result);
 }

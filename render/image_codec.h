@@ -24,6 +24,8 @@ struct EncodingRequest {
 using EncodeImage = bool (*)(const EncodingRequest& request, std::string& result);
 
 inline constexpr const char* image_codec_file = "gonio_image_codec.so";
-inline constexpr const char* image_codec_function = "gonio_encode_image";
+/// With a number that grows when EncodingRequest changes, so that no module of another version is
+/// taken.
+inline constexpr const char* image_codec_function = "gonio_encode_image_1";
 
 }  // namespace gonio::render

@@ -1,75 +1,78 @@
 #include "shader/instruction_counts.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <limits>
-#include <string_view>
 #include <utility>
+#include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
+#include "shader/pipeline_statistics.h"
 #include "shader/vulkan_instance.h"
 
 namespace gonio::shader {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr vk::Format target_format = vk::Format::eR32G32B32A32Sfloat;
 constexpr std::uint32_t attribute_size = 3 * sizeof(float);
 
-std::string variable_or(const char* name, const std::string& otherwise) {
-  const char* const value = std::getenv(name);
-  return value != nullptr && *value != '\0' ? value : otherwise;
+/// Whether the null device compiles for the chip: "Null hardware (RADV NAVI21)".
+bool is_of_chip(std::string_view device_name, std::string_view chip) {
+  std::string text = "(RADV ";
+  for (const char c : chip) text += 'a' <= c && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  const std::size_t at = device_name.find(text);
+  if (at == device_name.npos) return false;
+  const std::string_view after = device_name.substr(at + text.size());
+  return after.starts_with(')') || after.starts_with(' ');  // a blank: another compiler's name
 }
 
-/// Where the Vulkan loader looks for manifests (its documentation, "Driver Discovery on Linux").
-std::vector<fs::path> manifest_folders() {
-  const std::string home = variable_or("HOME", "");
-  const std::array<std::string, 5> lists{
-      variable_or("XDG_CONFIG_HOME", home + "/.config"), variable_or("XDG_CONFIG_DIRS", "/etc/xdg"),
-      "/usr/local/etc:/etc", variable_or("XDG_DATA_HOME", home + "/.local/share"),
-      variable_or("XDG_DATA_DIRS", "/usr/local/share:/usr/share")};
-  std::vector<fs::path> folders;
-  for (std::string_view list : lists) {
-    while (!list.empty()) {
-      const std::size_t end = std::min(list.find(':'), list.size());
-      folders.push_back(fs::path(list.substr(0, end)) / "vulkan" / "icd.d");
-      list.remove_prefix(std::min(end + 1, list.size()));
-    }
+bool is_radv(const vk::raii::PhysicalDevice& device) {
+  if (device.getProperties().apiVersion < VK_API_VERSION_1_2) return false;
+  const auto chain =
+      device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+  return chain.get<vk::PhysicalDeviceDriverProperties>().driverID == vk::DriverId::eMesaRadv;
+}
+
+/// Why none of the devices is the one.
+std::string no_null_device(std::string_view chip,
+                           const std::vector<vk::raii::PhysicalDevice>& devices) {
+  std::string names;
+  for (const vk::raii::PhysicalDevice& device : devices) {
+    const vk::PhysicalDeviceProperties properties = device.getProperties();
+    names += fmt::format("{}'{}'", names.empty() ? "" : ", ", properties.deviceName.data());
   }
-  return folders;
-}
-
-vk::raii::Context open_loader() {
-  try {
-    return {};
-  } catch (const std::runtime_error&) {
-    throw NoChipCompiler("no Vulkan loader (libvulkan.so.1): install libvulkan1");
+  if (!devices.empty() && std::none_of(devices.begin(), devices.end(), is_radv)) {
+    return fmt::format(
+        "found {}, expected Mesa's driver RADV: its manifest is radeon_icd*.json of "
+        "mesa-vulkan-drivers",
+        names);
   }
+  return fmt::format(
+      "this Mesa has no null device for '{}' (found {}): install Mesa 22.3, which has one (26.2 "
+      "and "
+      "later have none), or name the manifest of its RADV",
+      chip, names.empty() ? "no device" : names);
 }
 
-vk::raii::Instance make_instance(const vk::raii::Context& loader) {
-  const vk::ApplicationInfo application("gonio", 0, nullptr, 0, VK_API_VERSION_1_3);
-  return {loader, vk::InstanceCreateInfo({}, &application)};
-}
-
-bool has_extension(const vk::raii::PhysicalDevice& device, std::string_view name) {
-  const auto extensions = device.enumerateDeviceExtensionProperties();
-  return std::any_of(extensions.begin(), extensions.end(), [&](const auto& extension) {
-    return std::string_view(extension.extensionName) == name;
+/// RADV's null device for the chip: a GPU that is there would be counted under another's name.
+vk::raii::PhysicalDevice choose_null_device(std::string_view chip) {
+  std::vector<vk::raii::PhysicalDevice> devices = all_devices();
+  const auto found = std::find_if(devices.begin(), devices.end(), [&](const auto& device) {
+    const vk::PhysicalDeviceProperties properties = device.getProperties();
+    return is_null_device(properties) && is_radv(device) &&
+           is_of_chip(properties.deviceName.data(), chip);
   });
-}
-
-vk::raii::PhysicalDevice choose_device(const vk::raii::Instance& instance) {
-  for (vk::raii::PhysicalDevice& device : vk::raii::PhysicalDevices(instance)) {
-    if (device.getProperties().apiVersion >= VK_API_VERSION_1_3 &&
-        has_extension(device, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME)) {
-      return std::move(device);
-    }
+  if (found == devices.end()) throw NoChipCompiler(no_null_device(chip, devices));
+  if (found->getProperties().apiVersion < VK_API_VERSION_1_3 ||
+      !has_extension(*found, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME)) {
+    throw NoChipCompiler(
+        fmt::format("'{}' has no Vulkan 1.3 that tells what it compiles: install Mesa 22.3, "
+                    "or choose a newer chip",
+                    found->getProperties().deviceName.data()));
   }
-  throw NoChipCompiler(
-      "RADV makes no device of Vulkan 1.3 that tells what it compiles: install a newer Mesa");
+  return std::move(*found);
 }
 
 vk::raii::Device make_device(const vk::raii::PhysicalDevice& physical) {
@@ -138,83 +141,19 @@ vk::raii::Pipeline make_pipeline(const vk::raii::Device& device, vk::PipelineLay
   return {device, nullptr, info};
 }
 
-/// Which of the pipeline's executables is the fragment shader.
-std::uint32_t fragment_executable(const vk::raii::Device& device, vk::Pipeline pipeline) {
-  const auto executables = device.getPipelineExecutablePropertiesKHR(pipeline);
-  for (std::uint32_t e = 0; e < executables.size(); ++e) {
-    if (executables[e].stages & vk::ShaderStageFlagBits::eFragment) return e;
-  }
-  throw NoChipCompiler("the driver does not tell of a fragment shader that it has compiled");
-}
-
-int number_of(const vk::PipelineExecutableStatisticKHR& statistic) {
-  if (statistic.format != vk::PipelineExecutableStatisticFormatKHR::eUint64) {
-    throw NoChipCompiler("the driver's '" + std::string(statistic.name.data()) +
-                         "' is no whole number");
-  }
-  return static_cast<int>(
-      std::min<std::uint64_t>(statistic.value.u64, std::numeric_limits<int>::max()));
-}
-
-int number_named(const std::vector<vk::PipelineExecutableStatisticKHR>& statistics,
-                 std::string_view name) {
-  const auto found = std::find_if(statistics.begin(), statistics.end(), [&](const auto& s) {
-    return std::string_view(s.name.data()) == name;
-  });
-  if (found == statistics.end()) {
-    throw NoChipCompiler("the driver does not tell the number of '" + std::string(name) +
-                         "': found another version of Mesa than those known (22.3)");
-  }
-  return number_of(*found);
-}
-
-/// The machine code as text.
-std::string disassembly_of(const vk::raii::Device& device,
-                           const vk::PipelineExecutableInfoKHR& executable) {
-  // The first time the sizes of the texts come, the second time the one that has memory.
-  auto texts = device.getPipelineExecutableInternalRepresentationsKHR(executable);
-  const auto code = std::find_if(texts.begin(), texts.end(), [](const auto& text) {
-    return std::string_view(text.name.data()) == "Assembly";
-  });
-  if (code == texts.end()) throw NoChipCompiler("the driver does not show its machine code");
-  std::string text(code->dataSize, '\0');
-  code->pData = text.data();
-  auto count = static_cast<std::uint32_t>(texts.size());
-  const VkResult result = device.getDispatcher()->vkGetPipelineExecutableInternalRepresentationsKHR(
-      *device, &static_cast<const VkPipelineExecutableInfoKHR&>(executable), &count,
-      reinterpret_cast<VkPipelineExecutableInternalRepresentationKHR*>(texts.data()));
-  if (result != VK_SUCCESS) throw NoChipCompiler("the driver does not show its machine code");
-  text.resize(std::min(text.find('\0'), text.size()));
-  return text;
-}
-
-InstructionCounts counts_of(const vk::raii::Device& device, vk::Pipeline pipeline) {
-  const vk::PipelineExecutableInfoKHR executable(pipeline, fragment_executable(device, pipeline));
-  const auto statistics = device.getPipelineExecutableStatisticsKHR(executable);
-  InstructionCounts counts;
-  counts.disassembly = disassembly_of(device, executable);
-  counts.operations = count_operations(counts.disassembly);
-  // The assembler may add some to those that the compiler counts.
-  if (counts.operations.instructions < number_named(statistics, "Instructions")) {
-    throw NoChipCompiler(
-        "the driver cannot disassemble for this chip: choose a newer one, or install its "
-        "disassembler (clrxdisasm for those before GCN 3)");
-  }
-  counts.vector_registers = number_named(statistics, "VGPRs");
-  counts.scalar_registers = number_named(statistics, "SGPRs");
-  counts.estimated_latency = number_named(statistics, "Latency");
-  counts.estimated_inverse_throughput = number_named(statistics, "Inverse Throughput");
-  return counts;
-}
-
 /// Runs `work`; an error of Vulkan is one of the driver.
 template <class Work>
 auto with_advice(const Work& work) {
   try {
     return work();
+  } catch (const NoVulkanDevice& error) {
+    const char* const files = std::getenv("VK_DRIVER_FILES");
+    throw NoChipCompiler(fmt::format("{}; VK_DRIVER_FILES is {}", error.what(),
+                                     files != nullptr ? fmt::format("'{}'", files) : "not set"));
   } catch (const vk::SystemError& error) {
-    throw NoChipCompiler(std::string("RADV does not compile (") + error.what() +
-                         "): install Mesa's Vulkan drivers (mesa-vulkan-drivers)");
+    throw NoChipCompiler(fmt::format(
+        "RADV does not compile ({}): choose another chip, or another version of Mesa (22.3 does)",
+        error.what()));
   }
 }
 
@@ -223,6 +162,8 @@ auto with_advice(const Work& work) {
 /// The handles in the order in which they are made.
 class ChipCompiler::Open {
  public:
+  explicit Open(std::string_view chip) : physical_(choose_null_device(chip)) {}
+
   std::string device_text() const { return text_of(describe(physical_)); }
 
   InstructionCounts count(std::span<const std::uint32_t> vertex,
@@ -231,42 +172,18 @@ class ChipCompiler::Open {
     const vk::raii::ShaderModule fragment_module = make_module(device_, fragment);
     const vk::raii::Pipeline pipeline =
         make_pipeline(device_, *layout_, *vertex_module, *fragment_module);
-    return counts_of(device_, *pipeline);
+    return fragment_counts(device_, *pipeline);
   }
 
  private:
-  vk::raii::Context loader_ = open_loader();
-  vk::raii::Instance instance_ = make_instance(loader_);
-  vk::raii::PhysicalDevice physical_ = choose_device(instance_);
+  vk::raii::PhysicalDevice physical_;
   vk::raii::Device device_ = make_device(physical_);
   vk::raii::DescriptorSetLayout set_layout_ = make_set_layout(device_);
   vk::raii::PipelineLayout layout_{device_, vk::PipelineLayoutCreateInfo({}, *set_layout_)};
 };
 
-std::vector<fs::path> radv_manifests() {
-  std::vector<fs::path> manifests;
-  for (const fs::path& folder : manifest_folders()) {
-    std::error_code no_folder;
-    for (const auto& entry : fs::directory_iterator(folder, no_folder)) {
-      const std::string name = entry.path().filename().string();
-      if (name.starts_with("radeon_icd") && name.ends_with(".json")) {
-        manifests.push_back(entry.path());
-      }
-    }
-  }
-  return manifests;
-}
-
-std::vector<std::string> chip_environment(const std::string& chip,
-                                          std::span<const fs::path> manifests) {
-  std::string list;
-  for (const fs::path& path : manifests) list += (list.empty() ? "" : ":") + path.string();
-  // Newer loaders read the first, older ones the second. The last silences a remark on stderr.
-  return {"VK_DRIVER_FILES=" + list, "VK_ICD_FILENAMES=" + list, "RADV_FORCE_FAMILY=" + chip,
-          "MESA_VK_IGNORE_CONFORMANCE_WARNING=true"};
-}
-
-ChipCompiler::ChipCompiler() : open_(with_advice([] { return std::make_unique<Open>(); })) {}
+ChipCompiler::ChipCompiler(std::string_view chip)
+    : open_(with_advice([&] { return std::make_unique<Open>(chip); })) {}
 ChipCompiler::ChipCompiler(ChipCompiler&&) noexcept = default;
 ChipCompiler& ChipCompiler::operator=(ChipCompiler&&) noexcept = default;
 ChipCompiler::~ChipCompiler() = default;

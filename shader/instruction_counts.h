@@ -1,26 +1,25 @@
-// What a pixel shader becomes on real GPU chips, without a GPU: Mesa's driver RADV compiles for any
-// chip that it knows when it is given a null device (RADV_FORCE_FAMILY), and tells of the result by
+// What a pixel shader becomes on real GPU chips, without a GPU: Mesa's driver RADV has a null
+// device for any chip that it knows, compiles for it, and tells of the result by
 // VK_KHR_pipeline_executable_properties. Nothing is drawn.
 //
 // The chip is chosen by environment variables, which a process has to be started with
-// (chip_environment): so there is one chip in a process, and for a chip that RADV does not know it
-// aborts.
+// (chip_environment.h): so there is one chip in a process, and for a chip that RADV does not know
+// it aborts. Mesa 26.2 is said to have no null device any more.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <vector>
+#include <string_view>
 
 #include "shader/disassembly.h"
 
 namespace gonio::shader {
 
-/// There is no Vulkan loader or no RADV, or it does not compile for the chip or tell what it made;
-/// what() says which, and what to install.
+/// There is no Vulkan loader or no RADV, or it has no null device for the chip, does not compile
+/// for it or does not tell what it made; what() says which, and what to install.
 class NoChipCompiler : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -37,21 +36,12 @@ struct InstructionCounts {
   std::string disassembly;
 };
 
-/// The manifests of RADV (radeon_icd*.json) in the folders in which the Vulkan loader looks for
-/// drivers.
-std::vector<std::filesystem::path> radv_manifests();
-
-/// The variables, as NAME=VALUE, of a process that is to compile for the chip: a family as RADV
-/// calls it, such as polaris10, vega10 or navi21. `manifests`: one or more of them, of which those
-/// for other processors do not matter.
-std::vector<std::string> chip_environment(const std::string& chip,
-                                          std::span<const std::filesystem::path> manifests);
-
 /// RADV for the chip of this process.
 class ChipCompiler {
  public:
-  /// Throws NoChipCompiler.
-  ChipCompiler();
+  /// `chip`: that of chip_environment(), which this process was started with. Throws
+  /// NoChipCompiler, also if there is a null device of another chip, or a GPU.
+  explicit ChipCompiler(std::string_view chip);
   ChipCompiler(ChipCompiler&&) noexcept;
   ChipCompiler& operator=(ChipCompiler&&) noexcept;
   ~ChipCompiler();

@@ -11,6 +11,8 @@ namespace {
 
 /// What SPIR-V 1.3, the target of compile(), needs.
 constexpr std::uint32_t least_api_version = VK_API_VERSION_1_1;
+/// The newest of which anything here makes use, where a device has it (instruction_counts.cpp).
+constexpr std::uint32_t newest_api_version = VK_API_VERSION_1_3;
 
 vk::raii::Context open_loader() {
   try {
@@ -28,7 +30,7 @@ struct Vulkan {
   vk::raii::Instance instance = make_instance(loader);
 
   static vk::raii::Instance make_instance(const vk::raii::Context& loader) {
-    const vk::ApplicationInfo application("gonio", 0, nullptr, 0, least_api_version);
+    const vk::ApplicationInfo application("gonio", 0, nullptr, 0, newest_api_version);
     try {
       return {loader, vk::InstanceCreateInfo({}, &application)};
     } catch (const vk::SystemError& error) {
@@ -70,12 +72,8 @@ std::string version_text(std::uint32_t version) {
 
 /// From the properties that came with Vulkan 1.2 and, before, with an extension.
 std::string driver_of(const vk::raii::PhysicalDevice& device) {
-  const auto extensions = device.enumerateDeviceExtensionProperties();
-  const bool is_told =
-      device.getProperties().apiVersion >= VK_API_VERSION_1_2 ||
-      std::any_of(extensions.begin(), extensions.end(), [](const vk::ExtensionProperties& e) {
-        return std::string_view(e.extensionName) == VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME;
-      });
+  const bool is_told = device.getProperties().apiVersion >= VK_API_VERSION_1_2 ||
+                       has_extension(device, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME);
   if (!is_told) return {};
   const auto chain =
       device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
@@ -85,20 +83,15 @@ std::string driver_of(const vk::raii::PhysicalDevice& device) {
   return info.empty() ? name : name + ", " + info;
 }
 
-/// The loader holds it for an error that drivers have no hardware.
-std::vector<vk::raii::PhysicalDevice> all_devices() {
-  try {
-    return vk::raii::PhysicalDevices(instance());
-  } catch (const vk::InitializationFailedError&) {
-    return {};
-  }
-}
-
 /// Those that can compute, the best first.
 std::vector<vk::raii::PhysicalDevice> usable_devices() {
   std::vector<vk::raii::PhysicalDevice> usable;
   for (vk::raii::PhysicalDevice& device : all_devices()) {
-    if (device.getProperties().apiVersion < least_api_version || !queue_family(device)) continue;
+    const vk::PhysicalDeviceProperties properties = device.getProperties();
+    if (properties.apiVersion < least_api_version || is_null_device(properties) ||
+        !queue_family(device)) {
+      continue;
+    }
     usable.push_back(std::move(device));
   }
   std::stable_sort(usable.begin(), usable.end(), [](const auto& a, const auto& b) {
@@ -108,6 +101,25 @@ std::vector<vk::raii::PhysicalDevice> usable_devices() {
 }
 
 }  // namespace
+
+std::vector<vk::raii::PhysicalDevice> all_devices() {
+  try {
+    return vk::raii::PhysicalDevices(instance());
+  } catch (const vk::InitializationFailedError&) {
+    return {};  // the loader holds it for an error that drivers have no hardware
+  }
+}
+
+bool has_extension(const vk::raii::PhysicalDevice& device, std::string_view name) {
+  const auto extensions = device.enumerateDeviceExtensionProperties();
+  return std::any_of(extensions.begin(), extensions.end(), [&](const auto& extension) {
+    return std::string_view(extension.extensionName) == name;
+  });
+}
+
+bool is_null_device(const vk::PhysicalDeviceProperties& properties) {
+  return std::string_view(properties.deviceName.data()).starts_with("Null hardware");
+}
 
 std::optional<std::uint32_t> queue_family(const vk::raii::PhysicalDevice& device) {
   const auto families = device.getQueueFamilyProperties();

@@ -13,6 +13,16 @@
 
 namespace gonio::shader {
 
+/// Every device of every driver, of whatever version. Throws NoVulkanDevice if there is no loader
+/// or no driver.
+std::vector<vk::raii::PhysicalDevice> all_devices();
+
+bool has_extension(const vk::raii::PhysicalDevice& device, std::string_view name);
+
+/// What Mesa's RADV offers for a chip that is not there (chip_environment.h): it compiles for the
+/// chip, and waits for ever for what nothing computes.
+bool is_null_device(const vk::PhysicalDeviceProperties& properties);
+
 /// A queue family of the device that computes, if there is one: rather one that draws as well.
 std::optional<std::uint32_t> queue_family(const vk::raii::PhysicalDevice& device);
 

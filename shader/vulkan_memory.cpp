@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <stdexcept>
+#include <string>
 
 namespace gonio::shader {
 
@@ -9,12 +11,14 @@ vk::raii::DeviceMemory allocate(const vk::raii::PhysicalDevice& physical,
                                 const vk::raii::Device& device, const vk::MemoryRequirements& needs,
                                 vk::MemoryPropertyFlags wanted) {
   const vk::PhysicalDeviceMemoryProperties memory = physical.getMemoryProperties();
-  std::uint32_t type = 0;
-  while ((needs.memoryTypeBits >> type & 1) == 0 ||
-         (memory.memoryTypes[type].propertyFlags & wanted) != wanted) {
-    ++type;
+  for (std::uint32_t type = 0; type < memory.memoryTypeCount; ++type) {
+    const bool is_allowed = (needs.memoryTypeBits >> type & 1) != 0;
+    const bool is_wanted = (memory.memoryTypes[type].propertyFlags & wanted) == wanted;
+    if (is_allowed && is_wanted) return {device, vk::MemoryAllocateInfo(needs.size, type)};
   }
-  return {device, vk::MemoryAllocateInfo(needs.size, type)};
+  throw std::runtime_error(
+      "Vulkan device '" + std::string(physical.getProperties().deviceName.data()) +
+      "' has no memory of the kind that Vulkan promises: " + vk::to_string(wanted));
 }
 
 SharedBuffer::SharedBuffer(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device,

@@ -147,5 +147,68 @@ TEST(ExportCommand, RefusesWrongUsageAndUnusableInputInOneLine) {
   EXPECT_THAT(nowhere.err, HasSubstr("/nowhere/x.json"));
 }
 
+/// Bakes a table as a user would; its path.
+std::string baked(std::vector<std::string> arguments, const std::string& path) {
+  arguments.insert(arguments.begin(), {"lut", "bake"});
+  arguments.insert(arguments.end(), {"-o", path});
+  EXPECT_EQ(run_gonio(arguments).exit_status, 0);
+  return path;
+}
+
+TEST(ExportCommand, WritesAShaderThatReadsABakedTable) {
+  const TemporaryFolder folder;
+  const std::string material = folder.write("brass.json", brass);
+  const std::string table = baked({material}, folder / "lobe.exr");
+  for (const std::string target : {"hlsl", "glsl"}) {
+    const std::string path = folder / ("brass." + target);
+    const auto result =
+        run_gonio({"export", material, "--to", target, "--table", table, "-o", path, "--json"});
+    ASSERT_EQ(result.exit_status, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    // The table's own error, of weights in steps of 1/256: export_table_test.cpp bounds it.
+    EXPECT_GT(json["loss"]["peak"], 0);
+    EXPECT_THAT(json["stand_in"],
+                testing::StartsWith("the model with ward-exponent read from lobe.exr"));
+    EXPECT_THAT(content_of(path),
+                AllOf(HasSubstr("4 brdf_rolled_brass_table("), HasSubstr("texture: lobe.exr: 512"),
+                      HasSubstr("loss of reflected radiance: peak")));
+  }
+}
+
+TEST(ExportCommand, RefusesATableThatTheShaderCannotRead) {
+  const TemporaryFolder folder;
+  const std::string material = folder.write("brass.json", brass);
+  const std::string lobe = baked({material}, folder / "lobe.exr");
+  const auto expect_refusal = [&](const std::string& of, const std::string& target,
+                                  const std::string& table, int status,
+                                  const std::string& expected) {
+    const auto result = run_gonio({"export", of, "--to", target, "--table", table});
+    EXPECT_EQ(result.exit_status, status) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, HasSubstr(expected));
+    EXPECT_EQ(result.err.find('\n'), result.err.size() - 1) << result.err;
+  };
+  expect_refusal(material, "gltf", lobe, 2, "only glsl and hlsl read a table");
+  expect_refusal(material, "hlsl", material, 3, material + ": no look-up table of gonio");
+  expect_refusal(material, "hlsl", folder / "none.exr", 3, folder / "none.exr");
+  expect_refusal(material, "hlsl", "", 3, "no such file");
+  expect_refusal(material, "hlsl",
+                 baked({"--table", "ward-lobe", "--alpha", "0.3:0.5"}, folder / "rough.exr"), 2,
+                 "0.05 to 0.16");
+  expect_refusal(material, "glsl",
+                 baked({"--table", "blinn-phong-power", "--exponent", "30"}, folder / "power.exr"),
+                 2, "expected ward-exponent or ward-lobe");
+  const std::string matt =
+      folder.write("matt.json", R"({"format": "gonio-material", "version": 1, "model": "lambert",
+      "channels": ["Y"], "parameters": {"rho_d": {"value": [0.1]}}})");
+  expect_refusal(matt, "glsl", lobe, 2, "lambert");
+
+  const std::string before = content_of(lobe);
+  const auto overwriting =
+      run_gonio({"export", material, "--to", "hlsl", "--table", lobe, "-o", lobe});
+  EXPECT_EQ(overwriting.exit_status, 2);
+  EXPECT_EQ(content_of(lobe), before);
+}
+
 }  // namespace
 }  // namespace gonio::tests

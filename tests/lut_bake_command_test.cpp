@@ -86,6 +86,45 @@ TEST(LutBakeCommand, BakesWithoutAMaterialWhatItsOptionsSay) {
   EXPECT_EQ(table.layout.storage, lut::Storage::unorm16);
 }
 
+// Over the cosine a table for 0.05 to 0.5 errs by 6 % of the peak, over fourth-root by 2.4e-4
+// (docs/lut.md).
+TEST(LutBakeCommand, ChoosesTheCoordinateByWhatIsServed) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "t.exr";
+  const auto coordinate_for = [&](const std::vector<std::string>& arguments) {
+    const auto result = bake(arguments, path);
+    EXPECT_EQ(result.exit_status, 0) << result.err;
+    return lut::table_from_exr(content_of(path)).layout.coordinate;
+  };
+  using lut::Coordinate;
+  EXPECT_EQ(coordinate_for({"--table", "ward-lobe", "--alpha", "0.1"}), Coordinate::cosine);
+  EXPECT_EQ(coordinate_for({"--table", "ward-lobe", "--alpha", "0.05:0.5"}),
+            Coordinate::fourth_root);
+  EXPECT_EQ(coordinate_for({"--table", "ward-exponent"}), Coordinate::fourth_root);
+  EXPECT_EQ(coordinate_for({"--table", "blinn-phong-power", "--exponent", "10:1000"}),
+            Coordinate::fourth_root);
+  EXPECT_EQ(coordinate_for({"--table", "strauss-j", "--size", "64"}), Coordinate::sqrt);
+  EXPECT_EQ(coordinate_for({"--table", "strauss-terms", "--size", "64"}), Coordinate::cosine);
+  EXPECT_EQ(coordinate_for({folder.write("brass.json", brass)}), Coordinate::fourth_root);
+  EXPECT_EQ(
+      coordinate_for({"--table", "ward-lobe", "--alpha", "0.05:0.5", "--coordinate", "cosine"}),
+      Coordinate::cosine);
+}
+
+TEST(LutBakeCommand, ARangeMayBeWiderThanTheMaterials) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "t.exr";
+  const auto result = bake({folder.write("brass.json", brass), "--table", "ward-lobe", "--alpha",
+                            "0.02:1", "--size", "128"},
+                           path);
+  ASSERT_EQ(result.exit_status, 0) << result.err;
+  const lut::Layout layout = lut::table_from_exr(content_of(path)).layout;
+  EXPECT_EQ(layout.lowest, 0.02);
+  EXPECT_EQ(layout.highest, 1);
+  EXPECT_EQ(layout.height, lut::rows_of_a_range);
+  EXPECT_EQ(layout.reach, lut::lobe_reach(layout));
+}
+
 // One that any alpha can be read from has to go to the horizon; so does the published one.
 TEST(LutBakeCommand, AnExponentForEveryAlphaGoesToTheHorizon) {
   const TemporaryFolder folder;
@@ -120,9 +159,14 @@ TEST(LutBakeCommand, WrongUsageIsRefusedWithWhatIsPossible) {
       {{material, "--format", "r64f"}, "r32f, r16f, unorm16, unorm8"},
       {{material, "--reach", "half"}, "full, lobe"},
       {{material, "--reach", "0"}, "above 0 and at most 1"},
-      {{material, "--alpha", "0.1"}, "the material says it"},
+      {{material, "--alpha", "0.1"}, "a range with the material's 0.05 to 0.16"},
+      {{material, "--alpha", "0.1:1"}, "a range with the material's 0.05 to 0.16"},
+      {{material, "--exponent", "10"}, "does not depend on it"},
+      {{material, "--t", "0.5"}, "the material says it"},
       {{"--table", "ward-lobe"}, "--alpha is missing"},
       {{"--table", "ward-exponent", "--format", "unorm8"}, "--alpha is missing"},
+      {{"--table", "ward-exponent", "--format", "r16f"}, "--alpha is missing"},
+      {{"--table", "ward-exponent", "--format", "r16f", "--alpha", "1e-4:10"}, "factor of 2000"},
       {{"--table", "ward-exponent", "--reach", "lobe"}, "a material or --alpha"},
       {{"--table", "ward-lobe", "--alpha", "0.2:0.1"}, "a range within 0.0001 to 10"},
       {{"--table", "ward-lobe", "--alpha", "nan"}, "a number or LOWEST:HIGHEST"},

@@ -143,6 +143,59 @@ TEST_F(LutCheckCommand, FailsPastTheTolerance) {
   EXPECT_THAT(none.out, HasSubstr("No table"));
 }
 
+TEST_F(LutCheckCommand, RecommendsByTheToleranceAloneWithoutSamplesAndSaysSo) {
+  const CommandResult gone =
+      check({fitted, "--recommend", "--device", "cpu", "--samples", plastic});
+  EXPECT_THAT(gone.out, Not(HasSubstr("alone")));
+  const std::string copy = folder.write("copy.csv", content_of(plastic));
+  EXPECT_EQ(fit({copy, "-m", "ward", "-o", fitted}).exit_status, 0);
+  folder.write("copy.csv", content_of(plastic) + "# another one\n");
+  const CommandResult result = check({fitted, "--recommend", "--device", "cpu"});
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  EXPECT_THAT(result.out, AllOf(HasSubstr("The tolerance alone decides: there are no samples"),
+                                HasSubstr("not strictly comparable")));
+  EXPECT_EQ(checked({"--device", "cpu"}, 0).at("fit").at("residual_use"), "over other directions");
+}
+
+TEST_F(LutCheckCommand, NamesTheLimitThatNoTableKeeps) {
+  const CommandResult none = check({fitted, "--recommend", "--tolerance", "1e-9"});
+  EXPECT_THAT(none.out, HasSubstr("the tolerance is what none keeps"));
+}
+
+TEST_F(LutCheckCommand, JudgesATableThatWasBaked) {
+  const std::string path = folder / "table.exr";
+  const std::vector<std::string> options{"--size",  "64",           "--format",
+                                         "unorm16", "--coordinate", "sqrt"};
+  std::vector<std::string> bake{"lut", "bake", fitted, "-o", path};
+  bake.insert(bake.end(), options.begin(), options.end());
+  ASSERT_EQ(run_gonio(bake).exit_status, 0);
+  std::vector<std::string> described = options;
+  described.insert(described.end(), {"--device", "cpu"});
+  nlohmann::json expected = checked(described, 0);
+  expected["table"]["file"] = path;
+  EXPECT_EQ(checked({"--lut", path, "--device", "cpu"}, 0), expected);
+  const CommandResult text = check({fitted, "--lut", path, "--device", "cpu"});
+  EXPECT_THAT(text.out, HasSubstr(path));
+}
+
+TEST_F(LutCheckCommand, RefusesABakedTableThatIsNoneOrAnothers) {
+  const CommandResult missing = check({fitted, "--lut", folder / "none.exr"});
+  EXPECT_EQ(missing.exit_status, 3);
+  EXPECT_THAT(missing.err, HasSubstr("none.exr"));
+  const std::string broken = folder.write("broken.exr", "not a table");
+  const CommandResult unreadable = check({fitted, "--lut", broken});
+  EXPECT_EQ(unreadable.exit_status, 3);
+  EXPECT_THAT(unreadable.err, HasSubstr(broken));
+  const std::string power = folder / "power.exr";
+  ASSERT_EQ(
+      run_gonio({"lut", "bake", "--table", "blinn-phong-power", "--exponent", "50", "-o", power})
+          .exit_status,
+      0);
+  const CommandResult other = check({fitted, "--lut", power});
+  EXPECT_EQ(other.exit_status, 2);
+  EXPECT_THAT(other.err, AllOf(HasSubstr(power), HasSubstr("ward-exponent or ward-lobe")));
+}
+
 struct Refusal {
   std::vector<std::string> arguments;
   std::string message;
@@ -155,6 +208,8 @@ TEST_F(LutCheckCommand, RefusesWhatItCannotDo) {
                                       {{"--tolerance", "0"}, "above 0"},
                                       {{"--max-theta", "91"}, "at most 90"},
                                       {{"--recommend", "--size", "64"}, "--recommend chooses"},
+                                      {{"--lut", "a.exr", "--size", "64"}, "--lut names"},
+                                      {{"--lut", "a.exr", "--recommend"}, "--recommend chooses"},
                                       {{"--coordinate", "listing", "--format", "unorm8"}, "r32f"}};
   for (const Refusal& refusal : refusals) {
     SCOPED_TRACE(refusal.arguments.front());

@@ -8,6 +8,7 @@
 #include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
+#include <ImfVecAttribute.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -63,6 +64,7 @@ TEST(LutExr, EveryTableReadsBackToTheLastBit) {
     Layout lobe = ward;
     lobe.kind = TableKind::ward_lobe;
     lobe.height = 16;
+    const Layout narrow{.storage = storage, .lowest = 1e-4, .highest = 1e-4};
     const Layout power{.kind = TableKind::blinn_phong_power,
                        .coordinate = Coordinate::fourth_root,
                        .width = 100,
@@ -80,7 +82,7 @@ TEST(LutExr, EveryTableReadsBackToTheLastBit) {
                        .height = 33,
                        .storage = storage,
                        .transparency = 0.1};
-    for (const Layout& layout : {ward, lobe, power, j, terms}) {
+    for (const Layout& layout : {ward, narrow, lobe, power, j, terms}) {
       SCOPED_TRACE(name_of(layout.kind));
       const Table table = bake(layout);
       const std::string bytes = exr_of(table);
@@ -150,6 +152,11 @@ TEST(LutExr, OddAttributesAreRefusedWithWhatWasExpected) {
                 header.insert("gonioReach", Imf::StringAttribute("1"));
               })),
               AllOf(HasSubstr("gonioReach"), HasSubstr("string"), HasSubstr("double")));
+  EXPECT_THAT(
+      refusal(changed_file([](Imf::Header& header) {
+        header.insert("gonioScale", Imf::V2fAttribute({2, 1}));
+      })),
+      AllOf(HasSubstr("gonioScale"), HasSubstr("found (2, 1)"), HasSubstr("expected (1, 1)")));
   // Two channels are of the strauss tables.
   EXPECT_THAT(refusal(changed_file([](Imf::Header& header) {
                 header.channels().insert("G", Imf::Channel(Imf::FLOAT));

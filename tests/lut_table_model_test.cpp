@@ -183,6 +183,21 @@ TEST(LutTableModel, RefusesATableOfAnotherMaterial) {
   const Table lobe = bake({.kind = TableKind::ward_lobe, .lowest = 0.1, .highest = 0.1});
   EXPECT_EQ(refusal(bound("ward", {0.1}), lobe), "");
   EXPECT_THAT(refusal(bound("ward", {0.2}), lobe), HasSubstr("the material's are 0.2"));
+  for (const Storage storage : all_storages) {
+    // Too narrow, too wide; floats to the horizon serve any.
+    const Table exponent = bake({.storage = storage, .lowest = 0.1, .highest = 0.2});
+    EXPECT_EQ(refusal(bound("ward", {0.15}), exponent), "");
+    for (const double alpha : {0.01, 0.5}) {
+      const std::string problem = refusal(bound("ward", {alpha}), exponent);
+      if (storage == Storage::r32f) {
+        EXPECT_EQ(problem, "");
+      } else {
+        EXPECT_THAT(problem, HasSubstr("the table is for 0.1 to 0.2, the material's are"));
+      }
+    }
+  }
+  EXPECT_THAT(refusal(bound("ward", {0.5}), bake({.reach = 0.1, .lowest = 0.1, .highest = 0.2})),
+              HasSubstr("the table is for 0.1 to 0.2"));
   EXPECT_THAT(refusal(bound("phong", {20}), lobe), HasSubstr("lambert+phong"));
   const Table j = bake({.kind = TableKind::strauss_j, .width = 16, .height = 16});
   EXPECT_THAT(refusal(bound("strauss-listing", {0.5, 0.5, 0}), j), HasSubstr("strauss-listing"));

@@ -212,6 +212,30 @@ TEST(LutTable, IntegersOfTheExponentCoverTheLobe) {
   EXPECT_EQ(look_up(bake(layout), 0.0, 0.0, Filter::linear)[0], 0);
 }
 
+// The scale is a power of two, so that it rounds nothing, and leaves 16 alpha^2 in the upper half
+// of the halves' range or just below.
+TEST(LutTable, HalfFloatsOfTheExponentAreScaledToTheLobe) {
+  for (const double alpha : {1e-4, 0.05, 0.1, 1.0, 10.0}) {
+    const Layout layout{.storage = Storage::r16f, .lowest = alpha, .highest = alpha};
+    const double scale = decoding_of(layout)[0].scale;
+    EXPECT_EQ(std::exp2(std::round(std::log2(scale))), scale);
+    EXPECT_LE(16 * alpha * alpha / scale, 0x1p15);
+    EXPECT_GT(16 * alpha * alpha / scale, 0x1p14);
+    EXPECT_EQ(end_of_exponent(layout), -65504 * scale);
+    EXPECT_EQ(look_up(bake(layout), 0.0, 0.0, Filter::linear)[0], 0);
+  }
+  EXPECT_EQ(decoding_of({.storage = Storage::r32f, .lowest = 1e-4, .highest = 0.1})[0].scale, 1);
+}
+
+TEST(LutTable, OnlyFloatsToTheHorizonServeAnyAlpha) {
+  EXPECT_TRUE(serves_any_alpha({.lowest = 0.1, .highest = 0.1}));
+  EXPECT_TRUE(serves_any_alpha({.coordinate = Coordinate::listing}));
+  EXPECT_FALSE(serves_any_alpha({.reach = 0.5}));
+  EXPECT_FALSE(serves_any_alpha({.storage = Storage::r16f}));
+  EXPECT_FALSE(serves_any_alpha({.storage = Storage::unorm16}));
+  EXPECT_FALSE(serves_any_alpha({.kind = TableKind::ward_lobe}));
+}
+
 TEST(LutTable, AModelsLayoutServesItsParameters) {
   const Layout brushed = layout_for(ward_aniso(0.05, 0.16), TableKind::ward_lobe);
   EXPECT_EQ(brushed.lowest, 0.05);
@@ -254,6 +278,9 @@ TEST(LutTable, ImpossibleLayoutsAreRefusedWithWhatIsPossible) {
   EXPECT_THAT(problem({.reach = std::nan("")}), HasSubstr("reach"));
   EXPECT_THAT(problem({.lowest = 0.2, .highest = 0.1}), HasSubstr("range"));
   EXPECT_THAT(problem({.lowest = 1e-5, .highest = 0.1}), HasSubstr("0.0001 to 10"));
+  EXPECT_THAT(problem({.storage = Storage::r16f, .lowest = 1e-4, .highest = 10}),
+              AllOf(HasSubstr("r16f"), HasSubstr("a factor of 2000"), HasSubstr("r32f")));
+  EXPECT_EQ(problem({.storage = Storage::r16f, .lowest = 0.005, .highest = 10}), "");
   EXPECT_THAT(problem({.kind = TableKind::ward_lobe, .lowest = 0.1, .highest = 0.2}),
               HasSubstr("rows"));
   EXPECT_THAT(problem({.kind = TableKind::ward_lobe, .height = 64}), HasSubstr("height of 1"));

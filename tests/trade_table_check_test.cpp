@@ -20,8 +20,6 @@
 namespace gonio::trade {
 namespace {
 
-constexpr auto quantised = lut::Weights::quantised;
-
 TableChoice listing_for(const brdf::BoundModel& model) {
   TableChoice listing{lut::layout_for(model, lut::TableKind::ward_exponent)};
   listing.layout.coordinate = lut::Coordinate::listing;
@@ -32,17 +30,30 @@ TableChoice listing_for(const brdf::BoundModel& model) {
 constexpr std::pair<double, double> published[] = {
     {0.05, 0.957}, {0.1, 0.544}, {0.2, 0.178}, {0.4, 0.048}, {1.0, 0.0078}};
 
+/// To two digits where the error is at the lobe's centre. At alpha 1 it is on the flank, where f_r
+/// is up to sqrt(cos 60 / cos 75 cos 60 / cos 80) = 2.4 times the lobe that the published number is
+/// of.
+void expect_published(double found, double alpha, double error) {
+  if (alpha < 1) {
+    EXPECT_NEAR(found, error, 0.006 * error);
+  } else {
+    EXPECT_GE(found, 0.994 * error);
+    EXPECT_LE(found, 2.4 * error);
+  }
+}
+
 TEST(TableCheck, FindsThePublishedListingsErrorsToTwoDigits) {
   for (const auto& [alpha, error] : published) {
     SCOPED_TRACE(alpha);
     const auto model = tests::ward_model(0.3, 0.2, alpha);
     const TableCheck check =
         check_table(model, reference_on_grid(model), listing_for(model), nullptr);
-    EXPECT_NEAR(check.predicted.largest, error, 0.006 * error);
-    EXPECT_NEAR(check.predicted_quantised.largest, error, 0.006 * error);
+    expect_published(check.predicted.largest, alpha, error);
+    expect_published(check.predicted_quantised.largest, alpha, error);
     EXPECT_FALSE(check.measured);
     EXPECT_FALSE(check.analytic);
-    EXPECT_EQ(largest_error(check), check.predicted_quantised.largest);
+    EXPECT_EQ(worst_error(check).largest,
+              std::max(check.predicted.largest, check.predicted_quantised.largest));
   }
 }
 
@@ -54,7 +65,7 @@ TEST(TableCheck, MeasuresOnADeviceWhatItPredicts) {
     const TableCheck check =
         check_table(model, reference_on_grid(model), listing_for(model), &device);
     ASSERT_TRUE(check.measured && check.analytic);
-    EXPECT_NEAR(check.measured->largest, error, 0.006 * error);
+    expect_published(check.measured->largest, alpha, error);
     EXPECT_LE(check.analytic->largest, 2e-5);  // the figure of every shader
     EXPECT_GT(check.analytic->largest, 1e-12) << "it was not run in float";
   }
@@ -152,7 +163,7 @@ TEST(TableChoice, IsWithinTheLimitsAndNoSmallerTableIs) {
   const Reference reference =
       reference_on_samples(plastic.model, plastic.material, plastic.samples, 80);
   const double residual = cosine_residual(plastic.model, plastic.material, plastic.samples, 80);
-  const TableLimits limits = limits_of(half_display_step, residual);
+  const TableLimits limits = with_headroom(limits_of(reference, half_display_step, residual));
   EXPECT_LT(limits.largest, half_display_step);
   EXPECT_LT(*limits.rms, 0.01 * residual);
   const auto tables = smallest_tables(plastic.model, reference, limits);
@@ -162,16 +173,33 @@ TEST(TableChoice, IsWithinTheLimitsAndNoSmallerTableIs) {
   for (const GoodTable& good : tables) {
     SCOPED_TRACE(lut::name_of(good.table.layout.storage));
     const auto error = [&](const TableChoice& table) {
-      return predicted_error(plastic.model, reference, lut::bake(table.layout), table.filter,
-                             quantised);
+      return predicted_error(check_table(plastic.model, reference, table, nullptr));
     };
     EXPECT_EQ(good.bytes, lut::bytes_of(lut::bake(good.table.layout).texture));
     EXPECT_TRUE(keeps(limits, error(good.table)));
-    EXPECT_EQ(error(good.table).rms, good.error.rms);
+    // Summed in another order.
+    EXPECT_NEAR(error(good.table).rms, good.error.rms, 1e-9 * good.error.rms);
+    EXPECT_EQ(error(good.table).largest, good.error.largest);
     for (const TableChoice& smaller : smaller_tables(good, plastic.model)) {
       EXPECT_FALSE(keeps(limits, error(smaller)))
           << size_of(smaller.layout) << " bytes, " << lut::name_of(smaller.layout.coordinate);
     }
+  }
+}
+
+TEST(ResidualUse, IsNoneWhereTheResidualSaysNothingOfTheTable) {
+  const Fitted plastic("plastic_laminate", "ward");
+  const Reference on_samples =
+      reference_on_samples(plastic.model, plastic.material, plastic.samples, 80);
+  const Reference on_grid = reference_on_grid(plastic.model);
+  EXPECT_EQ(residual_use(on_samples, std::nullopt), ResidualUse::unknown);
+  EXPECT_EQ(residual_use(on_grid, 0.01), ResidualUse::over_other_directions);
+  EXPECT_EQ(residual_use(on_samples, 1e-16), ResidualUse::below_float);
+  EXPECT_EQ(residual_use(on_samples, 0.01), ResidualUse::limits);
+  EXPECT_EQ(limits_of(on_samples, 0.5, 0.01).rms, 0.01 * share_of_residual);
+  for (const Reference& reference : {on_grid, on_samples}) {
+    EXPECT_FALSE(limits_of(reference, 0.5, 1e-16).rms);
+    EXPECT_EQ(limits_of(reference, 0.5, 1e-16).largest, 0.5);
   }
 }
 

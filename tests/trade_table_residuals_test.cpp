@@ -17,7 +17,7 @@ void expect_figure(const TableResidual& result) {
   EXPECT_TRUE(figure_holds(result));
   EXPECT_LT(result.share(), 0.01);  // the figure
   EXPECT_GT(result.share(), 1e-4) << "a table that errs by nothing was not the smallest";
-  EXPECT_LE(trade::largest_error(*result.check), trade::half_display_step);
+  EXPECT_LE(trade::worst_error(*result.check).largest, trade::half_display_step);
 }
 
 TEST(TableResiduals, OfWardsMaterialsAreUnderOnePercent) {

@@ -10,6 +10,9 @@ namespace {
 
 using Pair = brdf::DirectionPair<double>;
 
+/// A lobe below this share of the channel's f_r is no gauge: the rounding of the rest would be.
+constexpr double least_share_of_f_r = 1e-3;
+
 /// Which basis functions are the lobe's.
 std::vector<bool> lobe_parts(const brdf::Model& model) {
   std::vector<bool> parts;
@@ -76,6 +79,7 @@ LobeGauge::LobeGauge(const brdf::BoundModel& model, std::span<const Pair> pairs)
   std::for_each(lobes.begin(), lobes.end(), look_at);
   for (std::size_t c = 0; c < lobe_peaks_.size(); ++c) {
     if (!(lobe_peaks_[c] > 0)) lobe_peaks_[c] = f_r_peaks_[c] > 0 ? f_r_peaks_[c] : 1;
+    lobe_peaks_[c] = std::max(lobe_peaks_[c], least_share_of_f_r * f_r_peaks_[c]);
   }
 }
 

@@ -88,15 +88,6 @@ void add_stretched(std::vector<WeightedPair>& pairs, const Direction& wi,
   }
 }
 
-/// Viewers in the plane of incidence: hundreds of half vectors across a lobe, on either side.
-void add_profile(std::vector<WeightedPair>& pairs, const Direction& wi) {
-  constexpr brdf::LobeResolution profile{
-      .rings_per_e = 80, .rings_per_radian = 400, .azimuths = 2, .narrowest = 1e-4};
-  for (const auto& wo : brdf::lobe_directions(wi, profile)) {
-    add_if_compared(pairs, {{wi, wo.direction}, 0});
-  }
-}
-
 void add_viewers(std::vector<WeightedPair>& pairs, const Direction& wi, bool both_sides,
                  const std::optional<StretchedLobe>& lobe) {
   for (const auto& [wo, solid_angle] : brdf::lobe_directions(wi, {.one_side = !both_sides})) {
@@ -106,7 +97,6 @@ void add_viewers(std::vector<WeightedPair>& pairs, const Direction& wi, bool bot
     add_if_compared(pairs, {{wi, wo}, solid_angle});
   }
   if (lobe) add_stretched(pairs, wi, *lobe);
-  add_profile(pairs, wi);
 }
 
 }  // namespace

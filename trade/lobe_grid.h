@@ -14,9 +14,7 @@
 
 namespace gonio::trade {
 
-/// A pair of directions and the solid angle in sr that its wo stands for: 0 for those in the plane
-/// of incidence that are there besides, so densely that they meet a table's texels and the middle
-/// between them.
+/// A pair of directions and the solid angle in sr that its wo stands for.
 struct WeightedPair {
   brdf::DirectionPair<double> pair;
   double weight;

@@ -5,22 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 #include <utility>
 
 #include "table/file_error.h"
 #include "trade/float_direction.h"
 #include "trade/lobe_grid.h"
+#include "trade/mean_square.h"
+#include "trade/texel_directions.h"
 
 namespace gonio::trade {
 namespace {
 
 using Pair = brdf::DirectionPair<double>;
-
-double degrees_of(double cosine) {
-  return std::acos(std::clamp(cosine, -1.0, 1.0)) * (180 / std::numbers::pi);
-}
 
 /// For each channel of the material the table's of the same name.
 std::vector<std::size_t> channels_in(const table::SampleTable& samples,
@@ -73,26 +69,22 @@ class UsedSamples {
   std::vector<std::size_t> used_;
 };
 
-Reference reference_at(const brdf::BoundModel& model, std::vector<Pair> pairs,
-                       std::vector<double> weights, std::size_t samples) {
-  for (Pair& pair : pairs) pair = in_double(in_float(pair));
-  std::vector<double> f_r = reflectances(model, pairs);
-  LobeGauge gauge(model, pairs);
-  return {std::move(pairs), std::move(weights), model.channel_count(),
-          std::move(f_r),   std::move(gauge),   samples};
+/// The pairs in float and back in double, into two lists: written over themselves, g++ 12.2 leaves
+/// some of them in double.
+void set_pairs(Reference& reference, const std::vector<Pair>& pairs) {
+  reference.pairs_in_float.reserve(pairs.size());
+  for (const Pair& pair : pairs) reference.pairs_in_float.push_back(in_float(pair));
+  reference.pairs.reserve(pairs.size());
+  for (const auto& pair : reference.pairs_in_float) reference.pairs.push_back(in_double(pair));
 }
 
-/// Sums of squares and of weights, which give a weighted root mean square.
-struct MeanSquare {
-  double squares = 0;
-  double weights = 0;
-
-  void add(double value, double weight) {
-    squares += value * value * weight;
-    weights += weight;
-  }
-  double root() const { return weights > 0 ? std::sqrt(squares / weights) : 0; }
-};
+Reference reference_at(const brdf::BoundModel& model, const std::vector<Pair>& pairs,
+                       std::vector<double> weights, const LobeGauge& gauge, std::size_t samples) {
+  Reference reference{{}, {}, std::move(weights), model.channel_count(), {}, gauge, samples};
+  set_pairs(reference, pairs);
+  reference.f_r = reflectances(model, reference.pairs);
+  return reference;
+}
 
 }  // namespace
 
@@ -103,7 +95,7 @@ Reference reference_on_grid(const brdf::BoundModel& model) {
     pairs.push_back(pair);
     weights.insert(weights.end(), model.channel_count(), weight);
   }
-  return reference_at(model, std::move(pairs), std::move(weights), 0);
+  return reference_at(model, pairs, std::move(weights), LobeGauge(model, pairs), 0);
 }
 
 Reference reference_on_samples(const brdf::BoundModel& model, const material::Material& material,
@@ -117,51 +109,27 @@ Reference reference_on_samples(const brdf::BoundModel& model, const material::Ma
     pairs.push_back(used.pair(k));
     for (std::size_t c = 0; c < channels; ++c) weights.push_back(used.weight(k, c));
   }
-  return reference_at(model, std::move(pairs), std::move(weights), used.size());
+  return reference_at(model, pairs, std::move(weights), LobeGauge(model, pairs), used.size());
 }
 
-Reference thinned(const Reference& reference, std::size_t of_grid, std::size_t of_samples) {
-  const std::size_t channels = reference.channels;
-  Reference thin{{}, {}, channels, {}, reference.gauge, 0};
-  const auto keep = [&](std::size_t i) {
-    thin.pairs.push_back(reference.pairs[i]);
-    for (std::size_t k = i * channels; k < (i + 1) * channels; ++k) {
-      thin.weights.push_back(reference.weights[k]);
-      thin.f_r.push_back(reference.f_r[k]);
-    }
-  };
-  const auto keep_some = [&](std::size_t first, std::size_t last, std::size_t count) {
-    const std::size_t step =
-        std::max<std::size_t>(1, (last - first) / std::max<std::size_t>(1, count));
-    for (std::size_t i = first; i < last; i += step) keep(i);
-  };
-  const std::size_t grid = reference.pairs.size() - reference.samples;
-  keep_some(0, grid, of_grid);
-  const auto brightest = std::max_element(reference.f_r.begin(), reference.f_r.end());
-  keep(std::size_t(brightest - reference.f_r.begin()) / channels);
-  const std::size_t kept = thin.pairs.size();
-  keep_some(grid, reference.pairs.size(), of_samples);
-  thin.samples = thin.pairs.size() - kept;
-  return thin;
+Reference reference_at_texels(const brdf::BoundModel& model, const lut::Layout& layout,
+                              const LobeGauge& gauge, std::size_t every) {
+  const std::vector<Pair> pairs = texel_directions(model, layout, every);
+  return reference_at(model, pairs, std::vector<double>(pairs.size() * model.channel_count()),
+                      gauge, 0);
 }
 
-EvaluatorError error_of(const Reference& reference, std::span<const double> f_r) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  EvaluatorError error;
-  MeanSquare radiance;
-  for (std::size_t k = 0; k < f_r.size(); ++k) {
-    const Pair& pair = reference.pairs[k / reference.channels];
-    const std::size_t channel = k % reference.channels;
-    const double apart = std::isfinite(f_r[k]) ? std::abs(f_r[k] - reference.f_r[k]) : infinity;
-    const double share = apart / reference.gauge.at(channel, reference.f_r[k]);
-    if (share > error.largest) {
-      error.largest = share;
-      error.where = {degrees_of(pair.wi.z), degrees_of(pair.wo.z), channel};
-    }
-    if (reference.weights[k] > 0) radiance.add(apart * pair.wi.z, reference.weights[k]);
-  }
-  error.rms = radiance.root();
-  return error;
+Reference joined(Reference first, const Reference& second) {
+  const auto append = [](auto& list, const auto& more) {
+    list.insert(list.end(), more.begin(), more.end());
+  };
+  append(first.pairs_in_float, second.pairs_in_float);
+  append(first.pairs, second.pairs);
+  append(first.weights, second.weights);
+  append(first.f_r, second.f_r);
+  first.gauge = second.gauge;
+  first.samples = second.samples;
+  return first;
 }
 
 double cosine_residual(const brdf::BoundModel& model, const material::Material& material,

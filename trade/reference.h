@@ -1,10 +1,10 @@
 // What an evaluator is compared with: the model in double, where a material's table is checked.
 //
 // Two errors are told. The largest one is of f_r, as a fraction of the lobe's peak
-// (lobe_gauge.h), over a grid that is dense in the lobe and over the samples, if there are any. The
-// root mean square is of the reflected radiance f_r cos_i, in 1/sr, as the metric cosine-l2 weights
-// it: over the samples with their weights, so that it stands beside the residual of a fit to them,
-// else over the grid with its solid angles.
+// (lobe_gauge.h), over a grid that is dense in the lobe, over directions made for the table that is
+// judged, and over the samples, if there are any. The root mean square is of the reflected radiance
+// f_r cos_i, in 1/sr, as the metric cosine-l2 weights it: over the samples with their weights, so
+// that it stands beside the residual of a fit to them, else over the grid with its solid angles.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +15,7 @@
 
 #include "brdf/bound_model.h"
 #include "brdf/direction.h"
+#include "lut/layout.h"
 #include "material/material.h"
 #include "table/sample_table.h"
 #include "trade/lobe_gauge.h"
@@ -22,7 +23,9 @@
 namespace gonio::trade {
 
 struct Reference {
-  /// Their components are floats, as a shader is given them.
+  /// As a shader is given them.
+  std::vector<brdf::DirectionPair<float>> pairs_in_float;
+  /// The same numbers.
   std::vector<brdf::DirectionPair<double>> pairs;
   /// Of the radiance's square in the mean, [pair][channel], at least 0.
   std::vector<double> weights;
@@ -43,25 +46,14 @@ Reference reference_on_grid(const brdf::BoundModel& model);
 Reference reference_on_samples(const brdf::BoundModel& model, const material::Material& material,
                                const table::SampleTable& samples, double max_theta_deg);
 
-/// Every so many of the pairs: about `of_grid` of the grid's, `of_samples` of the samples, and the
-/// one with the material's largest value.
-Reference thinned(const Reference& reference, std::size_t of_grid, std::size_t of_samples);
+/// At the directions that meet the table's texels and the middles between them
+/// (texel_directions.h), or every so many of them, with the weight 0 and the gauge of another
+/// reference.
+Reference reference_at_texels(const brdf::BoundModel& model, const lut::Layout& layout,
+                              const LobeGauge& gauge, std::size_t every = 1);
 
-struct ErrorPlace {
-  double theta_i_deg = 0;
-  double theta_o_deg = 0;
-  std::size_t channel = 0;
-};
-
-/// How far an evaluator is from the model.
-struct EvaluatorError {
-  double largest = 0;  // as a fraction of the lobe's peak
-  ErrorPlace where = {};
-  double rms = 0;  // of f_r cos_i, in 1/sr
-};
-
-/// Of the values `f_r`, [pair][channel]. A value that is not finite has an infinite error.
-EvaluatorError error_of(const Reference& reference, std::span<const double> f_r);
+/// The pairs of both, with the gauge and the samples of the second.
+Reference joined(Reference first, const Reference& second);
 
 /// The root mean square over the samples of (f - model) cos_i, in 1/sr, with the table's weights:
 /// what a fit calls the error cosine-l2. Throws as reference_on_samples().

@@ -6,7 +6,6 @@
 #include "fit/options.h"
 #include "lut/table_model.h"
 #include "shader/evaluate.h"
-#include "trade/float_direction.h"
 #include "trade/parameter_uncertainty.h"
 
 namespace gonio::trade {
@@ -45,31 +44,38 @@ EvaluatorError predicted_error(const brdf::BoundModel& model, const Reference& r
 }
 
 TableCheck check_table(const brdf::BoundModel& model, const Reference& reference,
-                       const TableChoice& table, shader::VulkanDevice* device) {
-  const lut::Table baked = lut::bake(table.layout);
+                       const lut::Table& table, lut::Filter filter, shader::VulkanDevice* device) {
+  const Reference at_texels = reference_at_texels(model, table.layout, reference.gauge);
+  const Reference everywhere = joined(at_texels, reference);
   const auto predicted = [&](lut::Weights weights) {
-    return predicted_error(model, reference, baked, table.filter, weights);
+    return predicted_error(model, everywhere, table, filter, weights);
   };
-  TableCheck check{table, predicted(lut::Weights::exact), predicted(lut::Weights::quantised),
-                   std::nullopt, std::nullopt};
+  TableCheck check{{table.layout, filter},
+                   at_texels.pairs.size(),
+                   predicted(lut::Weights::exact),
+                   predicted(lut::Weights::quantised),
+                   std::nullopt,
+                   std::nullopt};
   if (device == nullptr) return check;
-  std::vector<brdf::DirectionPair<float>> pairs;
-  pairs.reserve(reference.pairs.size());
-  for (const auto& pair : reference.pairs) pairs.push_back(in_float(pair));
-  check.analytic = error_of_floats(reference, shader::evaluate(*device, model, pairs));
+  const auto& pairs = everywhere.pairs_in_float;
+  check.analytic = error_of_floats(everywhere, shader::evaluate(*device, model, pairs));
   check.measured =
-      error_of_floats(reference, shader::evaluate(*device, model, {baked, table.filter}, pairs));
+      error_of_floats(everywhere, shader::evaluate(*device, model, {table, filter}, pairs));
   return check;
 }
 
-double largest_error(const TableCheck& check) {
-  const double predicted = check.predicted_quantised.largest;
-  return check.measured ? std::max(predicted, check.measured->largest) : predicted;
+TableCheck check_table(const brdf::BoundModel& model, const Reference& reference,
+                       const TableChoice& table, shader::VulkanDevice* device) {
+  return check_table(model, reference, lut::bake(table.layout), table.filter, device);
 }
 
-double rms_error(const TableCheck& check) {
-  const double predicted = check.predicted_quantised.rms;
-  return check.measured ? std::max(predicted, check.measured->rms) : predicted;
+EvaluatorError predicted_error(const TableCheck& check) {
+  return worse_of(check.predicted, check.predicted_quantised);
+}
+
+EvaluatorError worst_error(const TableCheck& check) {
+  const EvaluatorError predicted = predicted_error(check);
+  return check.measured ? worse_of(predicted, *check.measured) : predicted;
 }
 
 FitErrors fit_errors(const brdf::BoundModel& model, const material::Material& material,

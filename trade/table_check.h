@@ -13,6 +13,7 @@
 #include "material/material.h"
 #include "shader/vulkan_device.h"
 #include "table/sample_table.h"
+#include "trade/evaluator_error.h"
 #include "trade/reference.h"
 
 namespace gonio::trade {
@@ -33,6 +34,8 @@ std::size_t size_of(const lut::Layout& layout);
 /// How far a table's path, and the shader without one, are from the model in double.
 struct TableCheck {
   TableChoice table;
+  /// How many directions were looked at because of where the table's texels are.
+  std::size_t at_texels = 0;
   /// By the CPU in double but for the texels: the table's part alone. With weights of the filter as
   /// they are, and rounded to 1/256 as GPUs do.
   EvaluatorError predicted;
@@ -47,16 +50,23 @@ struct TableCheck {
 EvaluatorError predicted_error(const brdf::BoundModel& model, const Reference& reference,
                                const lut::Table& table, lut::Filter filter, lut::Weights weights);
 
-/// All of it; without a device what it would measure stays empty. Throws std::invalid_argument for
-/// a layout that is none or that the model cannot be evaluated by, and as
-/// shader::VulkanDevice::run.
+/// All of it, over the reference and where the table's texels are; without a device what it would
+/// measure stays empty. Throws std::invalid_argument for a table that the model cannot be evaluated
+/// by, and as shader::VulkanDevice::run.
+TableCheck check_table(const brdf::BoundModel& model, const Reference& reference,
+                       const lut::Table& table, lut::Filter filter, shader::VulkanDevice* device);
+
+/// The same of a table that is baked for it. Throws std::invalid_argument for a layout that is
+/// none.
 TableCheck check_table(const brdf::BoundModel& model, const Reference& reference,
                        const TableChoice& table, shader::VulkanDevice* device);
 
-/// The table's error that counts: the larger one of what was predicted with a GPU's weights and
-/// what was measured.
-double largest_error(const TableCheck& check);
-double rms_error(const TableCheck& check);
+/// What was predicted of the table, with whichever weights are worse: a GPU has the rounded ones, a
+/// software driver may have the exact ones.
+EvaluatorError predicted_error(const TableCheck& check);
+
+/// The table's error that counts: the larger one of what was predicted and what was measured.
+EvaluatorError worst_error(const TableCheck& check);
 
 /// What the table's error stands beside; root mean squares of f_r cos_i in 1/sr.
 struct FitErrors {

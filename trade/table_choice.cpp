@@ -2,43 +2,70 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "lut/layout.h"
+#include "lut/table_model.h"
 
 namespace gonio::trade {
 namespace {
 
-/// So many pairs of the grid and of the samples tell most tables that are too coarse.
-constexpr std::size_t first_look = 1000;
-/// The root mean square over so few of the pairs may be off by as much.
-constexpr double first_look_excess = 1.5;
+/// Every so many of the directions at a table's texels tell most tables that are too coarse.
+constexpr std::size_t first_look = 101;
 
 constexpr std::array coordinates{lut::Coordinate::cosine, lut::Coordinate::sqrt,
                                  lut::Coordinate::fourth_root};
 constexpr std::array filters{lut::Filter::linear, lut::Filter::nearest};
+
+/// A step through a list that meets all of it, and early on a bit of everywhere.
+std::size_t golden_step(std::size_t size) {
+  auto step = std::max<std::size_t>(1, std::size_t(0.618 * double(size)));
+  while (std::gcd(step, size) > 1) --step;
+  return step;
+}
 
 /// The material, where its tables are checked, and what is asked of them.
 struct Task {
   const brdf::BoundModel& model;
   const TableLimits& limits;
   const Reference& reference;
-  const Reference few;          // of the pairs
-  const Reference few_of_grid;  // and every sample
 
-  /// The error over all pairs, if it is within the limits.
+  /// The error over the pairs, if it is within the limits: most tables are past them after a few.
+  std::optional<EvaluatorError> good_error(const Reference& where, const lut::Table& table,
+                                           lut::Filter filter, lut::Weights weights) const {
+    const lut::TableModel by_table(model, table, filter, weights);
+    std::vector<double> f_r(where.channels);
+    ErrorSum sum(where);
+    const std::size_t size = where.pairs.size();
+    const std::size_t step = golden_step(size);
+    for (std::size_t k = 0, i = 0; k < size; ++k, i = (i + step) % size) {
+      by_table.f_r(where.pairs[i].wi, where.pairs[i].wo, f_r);
+      sum.add(i, f_r);
+      if (!keeps(limits, sum.error())) return std::nullopt;
+    }
+    return sum.error();
+  }
+
+  /// The same everywhere, with either weights.
   std::optional<EvaluatorError> good_error(const TableChoice& choice) const {
     const lut::Table table = lut::bake(choice.layout);
-    const auto error = [&](const Reference& where) {
-      return predicted_error(model, where, table, choice.filter, lut::Weights::quantised);
+    EvaluatorError worst;
+    const auto is_good = [&](const Reference& where) {
+      for (const lut::Weights weights : {lut::Weights::quantised, lut::Weights::exact}) {
+        const auto error = good_error(where, table, choice.filter, weights);
+        if (!error) return false;
+        worst = worse_of(worst, *error);
+      }
+      return true;
     };
-    EvaluatorError at_first = error(few);
-    at_first.rms /= first_look_excess;
-    if (!keeps(limits, at_first)) return std::nullopt;
-    if (reference.samples > 0 && !keeps(limits, error(few_of_grid))) return std::nullopt;
-    const EvaluatorError all = error(reference);
-    return keeps(limits, all) ? std::optional(all) : std::nullopt;
+    const auto is_good_at_texels = [&](std::size_t every) {
+      return is_good(reference_at_texels(model, choice.layout, reference.gauge, every));
+    };
+    const bool all_good =
+        is_good(reference) && is_good_at_texels(first_look) && is_good_at_texels(1);
+    return all_good ? std::optional(worst) : std::nullopt;
   }
 };
 
@@ -115,11 +142,27 @@ std::optional<GoodTable> smallest_in(const Task& task, const std::vector<TableCh
 
 }  // namespace
 
-TableLimits limits_of(double tolerance, const std::optional<double>& residual) {
-  constexpr double headroom = 0.95;
-  TableLimits limits{headroom * tolerance, std::nullopt};
-  if (residual) limits.rms = headroom * share_of_residual * *residual;
+ResidualUse residual_use(const Reference& reference, const std::optional<double>& residual) {
+  if (!residual) return ResidualUse::unknown;
+  if (reference.samples == 0) return ResidualUse::over_other_directions;
+  const double of_float = share_of_float * radiance_rms(reference, reference.f_r);
+  return share_of_residual * *residual > of_float ? ResidualUse::limits : ResidualUse::below_float;
+}
+
+TableLimits limits_of(const Reference& reference, double tolerance,
+                      const std::optional<double>& residual) {
+  TableLimits limits{tolerance, std::nullopt};
+  if (residual_use(reference, residual) == ResidualUse::limits) {
+    limits.rms = share_of_residual * *residual;
+  }
   return limits;
+}
+
+TableLimits with_headroom(const TableLimits& limits) {
+  constexpr double headroom = 0.95;
+  TableLimits less{headroom * limits.largest, std::nullopt};
+  if (limits.rms) less.rms = headroom * *limits.rms;
+  return less;
 }
 
 bool keeps(const TableLimits& limits, const EvaluatorError& error) {
@@ -137,8 +180,7 @@ std::vector<GoodTable> smallest_tables(const brdf::BoundModel& model, const Refe
     const auto of_kind = families_of(model, kind);
     families.insert(families.end(), of_kind.begin(), of_kind.end());
   }
-  const Task task{model, limits, reference, thinned(reference, first_look, first_look),
-                  thinned(reference, first_look, reference.samples)};
+  const Task task{model, limits, reference};
   std::vector<GoodTable> smallest;
   for (const lut::Storage storage : lut::all_storages) {
     if (auto table = smallest_in(task, families, storage)) smallest.push_back(*table);

@@ -11,7 +11,7 @@
 
 namespace gonio::trade {
 
-/// What is asked of a table; its errors are those predicted with weights rounded to 1/256.
+/// What is asked of a table.
 struct TableLimits {
   /// The largest error, as a fraction of the lobe's peak.
   double largest = half_display_step;
@@ -22,14 +22,31 @@ struct TableLimits {
 /// Of a fit's residual: a table that stays below changes the fit's error by 1/20000 of itself.
 inline constexpr double share_of_residual = 0.01;
 
-/// The limits for a tolerance and a fit's residual: 5 % below them, as a device's arithmetic in
-/// float comes on top of what is predicted.
-TableLimits limits_of(double tolerance, const std::optional<double>& residual);
+/// Whether a fit's residual limits the root mean square of a table's error, or why it does not.
+enum class ResidualUse {
+  limits,
+  unknown,                // there is none
+  over_other_directions,  // than the reference's root mean squares: it has no samples
+  below_float             // its share is less than what a shader's arithmetic in float costs
+};
+
+/// A shader's arithmetic in float changes f_r by about this share of itself: sixteen roundings.
+inline constexpr double share_of_float = 0x1p-20;
+
+ResidualUse residual_use(const Reference& reference, const std::optional<double>& residual);
+
+/// The limits for a tolerance and a fit's residual.
+TableLimits limits_of(const Reference& reference, double tolerance,
+                      const std::optional<double>& residual);
+
+/// What is asked of a prediction: 5 % less, as a device's arithmetic in float comes on top of it.
+TableLimits with_headroom(const TableLimits& limits);
 
 /// True if the errors are within the limits.
 bool keeps(const TableLimits& limits, const EvaluatorError& error);
 
-/// A table that keeps the limits, and its predicted error.
+/// A table that keeps the limits, and its predicted error: the larger one of exact weights and of
+/// those rounded to 1/256.
 struct GoodTable {
   TableChoice table;
   std::size_t bytes;

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "apps/gonio/command.h"
@@ -18,6 +19,7 @@ namespace {
 struct ExportOptions {
   std::string material;
   std::string to;
+  std::optional<std::string> table;
   std::string output;
   bool json = false;
 };
@@ -53,11 +55,41 @@ std::string report(const exports::Exported& exported, const std::vector<std::str
   return text;
 }
 
+/// The targets that read a look-up table.
+std::vector<std::string> targets_with_table() {
+  std::vector<std::string> names;
+  for (const exports::Target& target : exports::all_targets()) {
+    if (target.write_with_table != nullptr) names.push_back(target.name);
+  }
+  return names;
+}
+
+exports::Exported write_with_table(const ExportOptions& options, const exports::Target& target,
+                                   const std::string& path) {
+  if (target.write_with_table == nullptr) {
+    throw std::invalid_argument(
+        fmt::format("export --to {}: --table {}: expected none: only {} read a table", target.name,
+                    path, fmt::join(targets_with_table(), " and ")));
+  }
+  const material::Material material = material::read_material(options.material);
+  const exports::ShaderTable table = exports::read_shader_table(path);
+  try {
+    return target.write_with_table(material, table);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(
+        fmt::format("export {} --table {}: {}", options.material, path, error.what()));
+  }
+}
+
+exports::Exported write(const ExportOptions& options, const exports::Target& target) {
+  if (options.table) return write_with_table(options, target, *options.table);
+  return target.write(material::read_material(options.material),
+                      std::filesystem::path(options.output).stem().string());
+}
+
 void export_material(const ExportOptions& options) {
   const exports::Target& target = exports::target_named(options.to);
-  const material::Material material = material::read_material(options.material);
-  const exports::Exported exported =
-      target.write(material, std::filesystem::path(options.output).stem().string());
+  const exports::Exported exported = write(options, target);
   if (options.output.empty()) {
     if (options.json || exported.files.size() > 1) {
       throw std::invalid_argument(
@@ -74,6 +106,7 @@ void export_material(const ExportOptions& options) {
   for (const exports::ExportedFile& file : exported.files) {
     paths.push_back(path_of(options.output, file));
     refuse_overwriting(options.material, paths.back());
+    if (options.table) refuse_overwriting(*options.table, paths.back());
   }
   for (std::size_t k = 0; k < paths.size(); ++k) {
     table::write_file(paths[k], exported.files[k].text);
@@ -105,6 +138,12 @@ void add_export_command(CLI::App& app, Invocation& /*invocation*/) {
   command->add_option("--to", options->to, fmt::format("{}", fmt::join(names, ", ")))
       ->required()
       ->type_name("TARGET");
+  command
+      ->add_option("--table", options->table,
+                   fmt::format("A look-up table (gonio lut bake) that the shader reads the lobe "
+                               "from; for {}",
+                               fmt::join(targets_with_table(), " and ")))
+      ->type_name("EXR");
   command->add_option("-o,--output", options->output,
                       "The file to write; without it, to stdout, and the loss to stderr");
   command->add_flag("--json", options->json, "Print what was written and lost as JSON");

@@ -12,8 +12,12 @@
 #include "apps/gonio/lut_command.h"
 #include "apps/gonio/lut_options.h"
 #include "apps/gonio/progress.h"
+#include "lut/table_exr.h"
+#include "lut/table_model.h"
 #include "material/evaluate.h"
 #include "material/material_json.h"
+#include "table/file_error.h"
+#include "table/input_file.h"
 #include "table/read.h"
 #include "trade/table_choice.h"
 
@@ -23,6 +27,7 @@ namespace {
 struct CheckOptions {
   std::string material;
   LutOptions lut;
+  std::string lut_path;
   std::string filter = "linear";
   std::string device;
   std::string samples;
@@ -92,41 +97,90 @@ lut::Filter filter_in(const CheckOptions& options) {
       fmt::format("--filter: found '{}', expected linear or nearest", options.filter));
 }
 
-void refuse_beside_recommend(const CheckOptions& options) {
+/// Throws if an option that describes a table is given beside one that says which it is.
+void refuse_beside(std::string_view chooser, std::string_view does, const CheckOptions& options) {
   for (const auto& [option, given] :
        {std::pair{"--table", options.lut.table}, std::pair{"--size", options.lut.size},
         std::pair{"--coordinate", options.lut.coordinate}, std::pair{"--reach", options.lut.reach},
-        std::pair{"--format", options.lut.format}}) {
+        std::pair{"--format", options.lut.format}, std::pair{"--alpha", options.lut.alpha},
+        std::pair{"--exponent", options.lut.exponent}}) {
     if (given.empty()) continue;
-    throw std::invalid_argument(fmt::format(
-        "{} {}: --recommend chooses the table, expected one of the two", option, given));
+    throw std::invalid_argument(fmt::format("{} {}: {} {} the table, expected one of the two",
+                                            option, given, chooser, does));
   }
+}
+
+void refuse_contradictions(const CheckOptions& options) {
+  if (options.recommend) refuse_beside("--recommend", "chooses", options);
+  if (options.lut_path.empty()) return;
+  refuse_beside("--lut", "names", options);
+  if (options.recommend) {
+    throw std::invalid_argument(fmt::format(
+        "--lut {}: --recommend chooses the table, expected one of the two", options.lut_path));
+  }
+}
+
+lut::Table read_table(const std::string& path) {
+  const table::InputFile file(path);
+  try {
+    return lut::table_from_exr(file.bytes());
+  } catch (const std::runtime_error& error) {
+    throw table::FileError(fmt::format("{}: {}", path, error.what()));
+  }
+}
+
+/// The table that the options name, which serves the model.
+lut::Table table_in(const CheckOptions& options, const brdf::BoundModel& model,
+                    lut::Filter filter) {
+  if (options.lut_path.empty()) return lut::bake(layout_from(options.lut, &model));
+  lut::Table table = read_table(options.lut_path);
+  try {
+    const lut::TableModel serves(model, table, filter, lut::Weights::exact);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("--lut {}: {}", options.lut_path, error.what()));
+  }
+  return table;
 }
 
 /// As trade::check_table; a driver that fails is no reason to do without an answer.
 trade::TableCheck check_table(const brdf::BoundModel& model, const trade::Reference& reference,
-                              const trade::TableChoice& table, ChosenDevice& chosen) {
-  if (!chosen.device) return trade::check_table(model, reference, table, nullptr);
+                              const lut::Table& table, lut::Filter filter, ChosenDevice& chosen) {
+  if (!chosen.device) return trade::check_table(model, reference, table, filter, nullptr);
   try {
-    return trade::check_table(model, reference, table, &*chosen.device);
+    return trade::check_table(model, reference, table, filter, &*chosen.device);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(
         fmt::format("{}: {}; --device cpu does without it", chosen.text, error.what()));
   }
 }
 
-/// Checks the recommended tables in turn, until one stays within the tolerance on the device too:
-/// some filter 8 bits with 8 bits.
+/// Checks the recommended tables in turn, until one keeps the limits on the device too: some filter
+/// 8 bits with 8 bits.
 void check_recommended(const brdf::BoundModel& model, const trade::Reference& reference,
                        ChosenDevice& device, LutCheckReport& report) {
   std::vector<trade::GoodTable>& tables = *report.recommended;
   while (!tables.empty()) {
-    report.check = check_table(model, reference, tables.front().table, device);
-    if (within_tolerance(report)) return;
-    report.passed_over.push_back(*report.check);
+    const auto& [layout, filter] = tables.front().table;
+    const trade::TableCheck check =
+        check_table(model, reference, lut::bake(layout), filter, device);
+    if (trade::keeps(report.limits, trade::worst_error(check))) {
+      report.check = check;
+      return;
+    }
+    report.passed_over.push_back(check);
     tables.erase(tables.begin());
-    report.check.reset();
   }
+}
+
+void recommend(const brdf::BoundModel& model, const trade::Reference& reference,
+               ChosenDevice& device, LutCheckReport& report) {
+  const trade::TableLimits asked = trade::with_headroom(report.limits);
+  report.recommended = trade::smallest_tables(model, reference, asked);
+  if (report.recommended->empty() && asked.rms) {
+    const trade::TableLimits tolerance{asked.largest, std::nullopt};
+    report.some_keep_tolerance = !trade::smallest_tables(model, reference, tolerance).empty();
+  }
+  check_recommended(model, reference, device, report);
 }
 
 void check(const CheckOptions& options, Invocation& invocation) {
@@ -134,16 +188,17 @@ void check(const CheckOptions& options, Invocation& invocation) {
   const double max_theta_deg =
       parse_number_within("--max-theta", options.max_theta, 0, 90, "degrees, above 0, at most 90");
   const lut::Filter filter = filter_in(options);
-  if (options.recommend) refuse_beside_recommend(options);
+  refuse_contradictions(options);
   const material::Material material = material::read_material(options.material);
   const brdf::BoundModel model = material::bind(material);
-  const trade::TableChoice table{layout_from(options.lut, &model), filter};
+  const lut::Table table = table_in(options, model, filter);
   ChosenDevice device = choose_device(options.device);
   const Samples samples = samples_for(options, material);
   const table::SampleTable* given = samples.table ? &*samples.table : nullptr;
   const trade::Reference reference =
       given != nullptr ? trade::reference_on_samples(model, material, *given, max_theta_deg)
                        : trade::reference_on_grid(model);
+  const trade::FitErrors fit = trade::fit_errors(model, material, reference, given, max_theta_deg);
 
   LutCheckReport report{
       .path = options.material,
@@ -154,18 +209,19 @@ void check(const CheckOptions& options, Invocation& invocation) {
       .samples = reference.samples,
       .grid = reference.pairs.size() - reference.samples,
       .max_theta_deg = max_theta_deg,
-      .tolerance = tolerance,
       .default_tolerance = options.tolerance.empty(),
-      .fit = trade::fit_errors(model, material, reference, given, max_theta_deg),
+      .fit = fit,
+      .residual_use = trade::residual_use(reference, fit.residual),
+      .limits = trade::limits_of(reference, tolerance, fit.residual),
+      .lut_path = options.lut_path,
       .check = {},
       .recommended = {},
-      .passed_over = {}};
+      .passed_over = {},
+      .some_keep_tolerance = false};
   if (options.recommend) {
-    report.recommended =
-        trade::smallest_tables(model, reference, trade::limits_of(tolerance, report.fit.residual));
-    check_recommended(model, reference, device, report);
+    recommend(model, reference, device, report);
   } else {
-    report.check = check_table(model, reference, table, device);
+    report.check = check_table(model, reference, table, filter, device);
   }
   if (options.json) {
     print_json(json_of(report));
@@ -183,6 +239,11 @@ void add_lut_check_command(CLI::App& lut, Invocation& invocation) {
       "check", "The error of a look-up table beside that of the fit whose parameters it serves");
   command->add_option("MATERIAL", options->material, "The material (JSON)")->required();
   add_lut_options(*command, options->lut);
+  command
+      ->add_option(
+          "--lut", options->lut_path,
+          "A table baked before (gonio lut bake), in place of the options that describe one")
+      ->type_name("FILE.exr");
   command->add_option("--filter", options->filter, "linear or nearest (default linear)")
       ->type_name("FILTER");
   add_device_option(*command, options->device);

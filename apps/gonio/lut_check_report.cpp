@@ -29,18 +29,23 @@ std::string headline(const LutCheckReport& report) {
       "table: {}, {} texels of {}, {} bytes, {} filter; coordinate {}, reach {:.3g}\n",
       lut::name_of(layout.kind), texels_of(layout), lut::name_of(layout.storage),
       trade::size_of(layout), name_of(filter), lut::name_of(layout.coordinate), layout.reach);
+  if (!report.lut_path.empty()) text += fmt::format("  of {}\n", report.lut_path);
   return text;
 }
 
 std::string conditions(const LutCheckReport& report) {
-  const std::string grid =
+  std::string places =
       fmt::format("{} pairs dense in the lobe, incidence 0, 15, .. 75 deg", report.grid);
+  if (report.check) {
+    places += fmt::format(",\n  and {} pairs at the table's texels and between them",
+                          report.check->at_texels);
+  }
   std::string text = fmt::format("device: {}\n", report.device);
   if (report.samples_path) {
-    text += fmt::format("directions: the {} samples of {} up to {:g} deg,\n  and {}\n",
-                        report.samples, *report.samples_path, report.max_theta_deg, grid);
+    text += fmt::format("directions: the {} samples of {} up to {:g} deg,\n  {}\n", report.samples,
+                        *report.samples_path, report.max_theta_deg, places);
   } else {
-    text += fmt::format("directions: {}\n  no samples: {}\n", grid, report.no_samples);
+    text += fmt::format("directions: {}\n  no samples: {}\n", places, report.no_samples);
   }
   return text;
 }
@@ -78,24 +83,47 @@ std::string errors(const LutCheckReport& report) {
 
 std::optional<double> share_of_residual(const LutCheckReport& report) {
   if (!report.check || !report.fit.residual || !(*report.fit.residual > 0)) return std::nullopt;
-  return trade::rms_error(*report.check) / *report.fit.residual;
+  return trade::worst_error(*report.check).rms / *report.fit.residual;
+}
+
+std::string_view name_of(trade::ResidualUse use) {
+  switch (use) {
+    case trade::ResidualUse::limits:
+      return "limits";
+    case trade::ResidualUse::unknown:
+      return "unknown";
+    case trade::ResidualUse::over_other_directions:
+      return "over other directions";
+    case trade::ResidualUse::below_float:
+      return "below float arithmetic";
+  }
+  return {};
+}
+
+std::string weaker_part(const LutCheckReport& report) {
+  const auto share = share_of_residual(report);
+  if (!share) return "There is no fit's residual to set the table's error beside.\n";
+  std::string text =
+      fmt::format("Table error is {} % of the fit's residual: the {} is the weaker part.\n",
+                  percent(*share), *share < 1 ? "model" : "table");
+  if (report.residual_use == trade::ResidualUse::over_other_directions) {
+    text +=
+        "  That residual is over the fit's samples and the table's error is over the grid: with "
+        "other\n"
+        "  directions the two are not strictly comparable; --samples TABLE sets them side by "
+        "side.\n";
+  }
+  return text;
 }
 
 std::string verdict(const LutCheckReport& report) {
-  std::string text = "\n";
-  if (const auto share = share_of_residual(report)) {
-    text += fmt::format("Table error is {} % of the fit's residual: the {} is the weaker part.\n",
-                        percent(*share), *share < 1 ? "model" : "table");
-  } else {
-    text += "There is no fit's residual to set the table's error beside.\n";
-  }
-  const trade::TableCheck& check = *report.check;
-  const double largest = trade::largest_error(check);
-  return text + fmt::format("At most {:.2e} of the peak, {}: {} the tolerance of {:.2e}{}.\n",
-                            largest,
-                            largest > check.predicted_quantised.largest ? "measured" : "predicted",
-                            largest <= report.tolerance ? "within" : "PAST", report.tolerance,
-                            report.default_tolerance ? " (half a step of 8 bits)" : "");
+  const double largest = trade::worst_error(*report.check).largest;
+  const bool is_measured = largest > trade::predicted_error(*report.check).largest;
+  return "\n" + weaker_part(report) +
+         fmt::format("At most {:.2e} of the peak, {}: {} the tolerance of {:.2e}{}.\n", largest,
+                     is_measured ? "measured" : "predicted",
+                     within_tolerance(report) ? "within" : "PAST", report.limits.largest,
+                     report.default_tolerance ? " (half a step of 8 bits)" : "");
 }
 
 /// "lobe" where the reach is that; else the number.
@@ -113,43 +141,77 @@ std::string bake_command(const LutCheckReport& report, const lut::Layout& layout
 }
 
 std::string limits(const LutCheckReport& report) {
-  return fmt::format("{:.3g} of the peak{}", report.tolerance,
-                     report.fit.residual ? " and 1 % of the fit's residual" : "");
+  return fmt::format("{:.3g} of the peak{}", report.limits.largest,
+                     report.limits.rms ? " and 1 % of the fit's residual" : "");
+}
+
+/// Why the tolerance alone decides, if it does.
+std::string_view residual_note(trade::ResidualUse use) {
+  switch (use) {
+    case trade::ResidualUse::limits:
+    case trade::ResidualUse::unknown:
+      return "";
+    case trade::ResidualUse::over_other_directions:
+      return "The tolerance alone decides: there are no samples to compare with the fit's residual "
+             "on.\n";
+    case trade::ResidualUse::below_float:
+      return "The tolerance alone decides: 1 % of the fit's residual is less than float arithmetic "
+             "costs.\n";
+  }
+  return "";
 }
 
 std::string passed_over(const LutCheckReport& report) {
   std::string text;
   for (const trade::TableCheck& check : report.passed_over) {
     const lut::Layout& layout = check.table.layout;
-    text += fmt::format("Passed over: {}, {} texels of {}, as measured {:.2e} of the peak\n",
-                        lut::name_of(layout.kind), texels_of(layout), lut::name_of(layout.storage),
-                        trade::largest_error(check));
+    text +=
+        fmt::format("Passed over: {}, {} texels of {}, as measured {:.2e} of the peak{}\n",
+                    lut::name_of(layout.kind), texels_of(layout), lut::name_of(layout.storage),
+                    trade::worst_error(check).largest,
+                    report.limits.rms
+                        ? fmt::format(", {} % of the residual",
+                                      percent(trade::worst_error(check).rms / *report.fit.residual))
+                        : "");
   }
   return text;
 }
 
+std::string no_table(const LutCheckReport& report) {
+  const std::string text = fmt::format("No table of up to {} KiB stays within {}:\n",
+                                       trade::most_bytes >> 10, limits(report));
+  if (!report.passed_over.empty())
+    return text +
+           "those predicted to do so do not as the device reads them. Compute the lobe without a "
+           "table.\n";
+  if (report.some_keep_tolerance)
+    return text +
+           "1 % of the residual is what none keeps. Compute the lobe without a table, or choose "
+           "one by\n--tolerance alone with --table.\n";
+  return text +
+         "the tolerance is what none keeps. Compute the lobe without a table, or allow more by "
+         "--tolerance.\n";
+}
+
+std::string recommended_row(const LutCheckReport& report, const trade::GoodTable& good) {
+  const auto& [layout, filter] = good.table;
+  return fmt::format(
+      "  {:>8}  {:<17} {:>9}  {:<11} {:>7.3g}  {:<7} {:<7} {:>9.2e} {:>12}\n", good.bytes,
+      lut::name_of(layout.kind), texels_of(layout), lut::name_of(layout.coordinate), layout.reach,
+      lut::name_of(layout.storage), name_of(filter), good.error.largest,
+      report.limits.rms ? percent(good.error.rms / *report.fit.residual) + " %" : "-");
+}
+
 std::string recommendation(const LutCheckReport& report) {
   const auto& tables = *report.recommended;
-  if (tables.empty()) {
-    return passed_over(report) +
-           fmt::format(
-               "\nNo table of up to {} KiB stays within {}, predicted with weights of 1/256:\n"
-               "compute the lobe without a table, or allow more by --tolerance.\n",
-               trade::most_bytes >> 10, limits(report));
-  }
-  std::string text = fmt::format(
-      "\nSmallest tables within {},\npredicted with weights of 1/256:\n"
+  std::string text = fmt::format("\n{}", residual_note(report.residual_use));
+  if (tables.empty()) return text + no_table(report) + passed_over(report);
+  text += fmt::format(
+      "Smallest tables within {},\npredicted with exact weights and with those of 1/256:\n"
       "  {:>8}  {:<17} {:>9}  {:<11} {:>7}  {:<7} {:<7} {:>9} {:>12}\n",
       limits(report), "bytes", "table", "texels", "coordinate", "reach", "format", "filter",
       "of peak", "of residual");
-  for (const trade::GoodTable& good : tables) {
-    const auto& [layout, filter] = good.table;
-    text += fmt::format(
-        "  {:>8}  {:<17} {:>9}  {:<11} {:>7.3g}  {:<7} {:<7} {:>9.2e} {:>12}\n", good.bytes,
-        lut::name_of(layout.kind), texels_of(layout), lut::name_of(layout.coordinate), layout.reach,
-        lut::name_of(layout.storage), name_of(filter), good.error.largest,
-        report.fit.residual ? percent(good.error.rms / *report.fit.residual) + " %" : "-");
-  }
+  for (const trade::GoodTable& good : tables) text += recommended_row(report, good);
   for (const lut::Storage storage : lut::all_storages) {
     const bool is_there = std::any_of(tables.begin(), tables.end(), [&](const auto& good) {
       return good.table.layout.storage == storage;
@@ -194,7 +256,7 @@ ordered_json recommended_json(const LutCheckReport& report) {
   ordered_json tables = ordered_json::array();
   for (const trade::GoodTable& good : *report.recommended) {
     ordered_json table = json_of(good.table);
-    table["predicted_quantised"] = json_of(report, good.error);
+    table["predicted"] = json_of(report, good.error);
     table["command"] = bake_command(report, good.table.layout);
     tables.push_back(table);
   }
@@ -204,7 +266,7 @@ ordered_json recommended_json(const LutCheckReport& report) {
 }  // namespace
 
 bool within_tolerance(const LutCheckReport& report) {
-  return report.check && trade::largest_error(*report.check) <= report.tolerance;
+  return report.check && trade::worst_error(*report.check).largest <= report.limits.largest;
 }
 
 std::string text_of(const LutCheckReport& report) {
@@ -226,12 +288,16 @@ ordered_json json_of(const LutCheckReport& report) {
         {"max_theta_deg", report.max_theta_deg}}},
       {"fit",
        {{"residual", json_of(report.fit.residual)},
-        {"uncertainty", json_of(report.fit.uncertainty)}}},
-      {"tolerance", report.tolerance},
+        {"uncertainty", json_of(report.fit.uncertainty)},
+        {"residual_use", name_of(report.residual_use)}}},
+      {"tolerance", report.limits.largest},
       {"within_tolerance", within_tolerance(report)}};
   if (report.check) {
     const trade::TableCheck& check = *report.check;
     json["table"] = json_of(check.table);
+    json["table"]["file"] =
+        report.lut_path.empty() ? ordered_json() : ordered_json(report.lut_path);
+    json["directions"]["at_texels"] = check.at_texels;
     json["errors"] = {{"analytic", json_of(report, check.analytic)},
                       {"predicted", json_of(report, check.predicted)},
                       {"predicted_quantised", json_of(report, check.predicted_quantised)},

@@ -24,15 +24,21 @@ struct LutCheckReport {
   std::size_t samples;
   std::size_t grid;
   double max_theta_deg;
-  double tolerance;
   bool default_tolerance;
   trade::FitErrors fit;
+  trade::ResidualUse residual_use;
+  /// The tolerance, and what the residual allows.
+  trade::TableLimits limits;
+  /// The file with the table that is checked, if it is one.
+  std::string lut_path;
   /// None if --recommend found no table.
   std::optional<trade::TableCheck> check;
   /// With --recommend, the smallest of each format, the smallest first; without those that turned
-  /// out to be past the tolerance when they were measured.
+  /// out to be past the limits when they were measured.
   std::optional<std::vector<trade::GoodTable>> recommended;
   std::vector<trade::TableCheck> passed_over;
+  /// Where no table keeps the limits: whether some keep the tolerance alone.
+  bool some_keep_tolerance;
 };
 
 /// True if there is a table and its error is within the tolerance.

@@ -90,20 +90,51 @@ void apply_reach(const std::string& reach, bool has_parameters, Layout& layout) 
       number_in("--reach", reach, "full, lobe, or the largest 1 - n.h, above 0 and at most 1");
 }
 
+/// The option that says which lobes a table serves, as given.
+struct LobeOption {
+  std::string_view name;
+  const std::string& given;
+};
+
+LobeOption option_of_lobes(const LutOptions& options, TableKind kind) {
+  if (kind == TableKind::blinn_phong_power) return {"--exponent", options.exponent};
+  return {"--alpha", options.alpha};
+}
+
 /// The range of --alpha or --exponent; nothing if it is not given.
 std::optional<std::pair<double, double>> range_of_lobes(const LutOptions& options, TableKind kind) {
-  const bool of_exponent = kind == TableKind::blinn_phong_power;
-  const std::string_view option = of_exponent ? "--exponent" : "--alpha";
-  const std::string& given = of_exponent ? options.exponent : options.alpha;
+  const auto& [option, given] = option_of_lobes(options, kind);
   if (!given.empty()) return range_in(option, given);
-  const bool serves_any =
-      kind == TableKind::ward_exponent &&
-      (options.format.empty() || options.format == "r32f" || options.format == "r16f");
-  if (serves_any || is_strauss(kind)) return std::nullopt;
+  const bool is_any_alpha =
+      kind == TableKind::ward_exponent && (options.format.empty() || options.format == "r32f");
+  if (is_any_alpha || is_strauss(kind)) return std::nullopt;
   throw std::invalid_argument(
       fmt::format("{} is missing: {}{} serves given values only; or name a material", option,
                   lut::name_of(kind),
                   kind == TableKind::ward_exponent ? " in " + options.format : std::string()));
+}
+
+/// The rows that a table of the parameters served has, unless --size says it.
+void set_rows(Layout& layout) {
+  if (layout.kind == TableKind::ward_exponent || is_strauss(layout.kind)) return;
+  layout.height = layout.lowest < layout.highest ? lut::rows_of_a_range : 1;
+}
+
+/// Lets a material's table serve the range of --alpha or --exponent, if it is given.
+void widen(const LutOptions& options, Layout& layout) {
+  const auto& [option, given] = option_of_lobes(options, layout.kind);
+  if (given.empty()) return;
+  const auto [lowest, highest] = range_in(option, given);
+  if (!(lowest <= layout.lowest && layout.highest <= highest)) {
+    refuse(
+        option, given,
+        layout.lowest == layout.highest
+            ? fmt::format("a range with the material's {}", layout.lowest)
+            : fmt::format("a range with the material's {} to {}", layout.lowest, layout.highest));
+  }
+  layout.lowest = lowest;
+  layout.highest = highest;
+  set_rows(layout);
 }
 
 void refuse_unused(const LutOptions& options, TableKind kind) {
@@ -126,8 +157,6 @@ void refuse_beside_material(const LutOptions& options) {
     throw std::invalid_argument(
         fmt::format("{} {}: the material says it, expected no such option", option, given));
   };
-  check("--alpha", options.alpha);
-  check("--exponent", options.exponent);
   check("--t", options.transparency);
   check("--model", options.model);
 }
@@ -152,18 +181,27 @@ Layout layout_without_material(const LutOptions& options) {
   }
   layout.of_cosine = options.model == "strauss-listing";
   if (is_strauss(layout.kind)) layout.height = layout.width;
-  const bool has_rows = layout.kind != TableKind::ward_exponent && layout.lowest < layout.highest;
-  if (has_rows) layout.height = lut::rows_of_a_range;
+  set_rows(layout);
   return layout;
 }
 
 Layout layout_of_material(const LutOptions& options, const brdf::BoundModel& model) {
   refuse_beside_material(options);
-  if (!options.table.empty()) {
-    return lut::layout_for(model, lut::table_kind_named(options.table));
-  }
   const std::vector<TableKind> tables = lut::tables_for(model.model());
-  return lut::layout_for(model, tables.empty() ? TableKind::ward_exponent : tables.front());
+  const TableKind first = tables.empty() ? TableKind::ward_exponent : tables.front();
+  const TableKind kind = options.table.empty() ? first : lut::table_kind_named(options.table);
+  Layout layout = lut::layout_for(model, kind);
+  refuse_unused(options, kind);
+  widen(options, layout);
+  return layout;
+}
+
+/// Of a range of lobes the narrowest needs its texels close to the peak; strauss-j is steep at the
+/// horizon.
+lut::Coordinate coordinate_in(const LutOptions& options, const Layout& layout) {
+  if (!options.coordinate.empty()) return lut::coordinate_named(options.coordinate);
+  if (layout.kind == TableKind::strauss_j) return lut::Coordinate::sqrt;
+  return layout.lowest < layout.highest ? lut::Coordinate::fourth_root : lut::Coordinate::cosine;
 }
 
 }  // namespace
@@ -178,7 +216,9 @@ void add_lut_options(CLI::App& command, LutOptions& options) {
       ->type_name("N[xM]");
   command
       .add_option("--coordinate", options.coordinate,
-                  fmt::format("{} (default cosine)", names_in(lut::all_coordinates)))
+                  fmt::format("{} (default: cosine for one alpha or exponent, fourth-root for a "
+                              "range or any alpha, sqrt for strauss-j)",
+                              names_in(lut::all_coordinates)))
       ->type_name("NAME");
   command
       .add_option("--reach", options.reach,
@@ -189,16 +229,17 @@ void add_lut_options(CLI::App& command, LutOptions& options) {
       .add_option("--format", options.format,
                   fmt::format("{} (default r32f)", names_in(lut::all_storages)))
       ->type_name("FORMAT");
-}
-
-void add_lut_parameter_options(CLI::App& command, LutOptions& options) {
   command
-      .add_option("--alpha", options.alpha, "The roughness that a ward table serves, or a range")
+      .add_option("--alpha", options.alpha,
+                  "The roughness that a ward table serves, or a range (default the material's)")
       ->type_name("LO[:HI]");
   command
       .add_option("--exponent", options.exponent,
-                  "The exponent that blinn-phong-power serves, or a range")
+                  "The exponent that blinn-phong-power serves, or a range (default the material's)")
       ->type_name("LO[:HI]");
+}
+
+void add_lut_parameter_options(CLI::App& command, LutOptions& options) {
   command.add_option("--t", options.transparency, "The t of strauss-terms (default 0)")
       ->type_name("T");
   command.add_option("--model", options.model, "strauss or strauss-listing, for strauss-j")
@@ -208,7 +249,7 @@ void add_lut_parameter_options(CLI::App& command, LutOptions& options) {
 lut::Layout layout_from(const LutOptions& options, const brdf::BoundModel* model) {
   Layout layout =
       model != nullptr ? layout_of_material(options, *model) : layout_without_material(options);
-  if (!options.coordinate.empty()) layout.coordinate = lut::coordinate_named(options.coordinate);
+  layout.coordinate = coordinate_in(options, layout);
   if (!options.format.empty()) layout.storage = lut::storage_named(options.format);
   apply_size(options.size, layout);
   const bool knows_lobe = model != nullptr || !options.alpha.empty() || !options.exponent.empty() ||

@@ -14,6 +14,7 @@
 #include "apps/gonio/command.h"
 #include "apps/gonio/device_option.h"
 #include "apps/gonio/lut_options.h"
+#include "apps/gonio/progress.h"
 #include "export/rgb.h"
 #include "lut/table.h"
 #include "material/evaluate.h"
@@ -34,7 +35,7 @@ struct RenderOptions {
   std::string exposure;
   int columns = 0;  // 0: all spheres in one row
   LutOptions table;
-  std::string filter = "linear";
+  std::string filter;         // of the table: linear or nearest; empty: linear
   std::string amplification;  // of the difference between table and model; empty: not shown
   std::string device;
   int threads = 0;
@@ -99,6 +100,7 @@ void check_table_options(const RenderOptions& options) {
   check("--reach", options.table.reach, "");
   check("--format", options.table.format, "");
   check("--difference", options.amplification, "");
+  check("--filter", options.filter, "");
 }
 
 Shown read_shown(const std::string& path) {
@@ -109,6 +111,16 @@ Shown read_shown(const std::string& path) {
     print_note(fmt::format("{}: {}: not all of them is visible light", path, channels.statement));
   }
   return {std::move(material), std::move(model), std::move(channels)};
+}
+
+/// Gives what is wrong with a material's table the material's path.
+template <class Work>
+auto with_path(const std::string& path, const Work& work) {
+  try {
+    return work();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", path, error.what()));
+  }
 }
 
 /// Renders one material after the other in the same view.
@@ -184,10 +196,16 @@ std::string text_of(const Shown& shown, const Sphere& sphere, const std::string&
 }
 
 void render_materials(const RenderOptions& options) {
-  render::image_format_of(options.output);
+  const render::ImageFormat format = render::image_format_of(options.output);
   check_table_options(options);
   const double exposure = number_of("--exposure", options.exposure, -64, 64, 0);
+  if (!options.exposure.empty() && format == render::ImageFormat::exr) {
+    throw std::invalid_argument(fmt::format(
+        "--exposure {}: is of a .png, expected none for {}, which holds radiance as it is",
+        options.exposure, options.output));
+  }
   for (const std::string& path : options.materials) refuse_overwriting(path, options.output);
+  render::require_image_output(options.output);
   Studio studio(options);
   std::vector<render::Image> images;
   std::vector<std::string> names;
@@ -196,7 +214,10 @@ void render_materials(const RenderOptions& options) {
   std::string text;
   for (const std::string& path : options.materials) {
     const Shown shown = read_shown(path);
-    Sphere sphere = studio.render(shown);
+    Sphere sphere = [&] {
+      const ProgressLine progress("rendering " + path);
+      return with_path(path, [&] { return studio.render(shown); });
+    }();
     names.push_back(name_of(shown, path));
     models.push_back(shown.material.model);
     spheres.push_back(json_of(shown, sphere, path));
@@ -261,7 +282,7 @@ void add_evaluation_options(CLI::App& command, RenderOptions& options) {
   command
       .add_option("--threads", options.threads,
                   "Of the CPU; 0: all; the picture is the same for any")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Range(0, 4096));
 }
 
 }  // namespace
