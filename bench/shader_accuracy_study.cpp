@@ -5,8 +5,8 @@
 #include <numbers>
 #include <utility>
 
+#include "brdf/float_direction.h"
 #include "shader/evaluate.h"
-#include "trade/float_direction.h"
 #include "trade/lobe_gauge.h"
 
 namespace gonio::bench {
@@ -65,8 +65,8 @@ std::vector<ShaderErrors> shader_errors(const ShaderMaterial& material,
   std::vector<DirectionPair<float>> pairs;
   std::vector<DirectionPair<double>> rounded;
   for (const auto& pair : unrounded) {
-    pairs.push_back(trade::in_float(pair));
-    rounded.push_back(trade::in_double(pairs.back()));
+    pairs.push_back(brdf::in_float(pair));
+    rounded.push_back(brdf::in_double(pairs.back()));
   }
   const brdf::BoundModel& model = material.bound;
   const Comparison comparison{std::move(pairs), model.channel_count(),

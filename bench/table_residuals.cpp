@@ -33,7 +33,7 @@ std::string text_of(const trade::TableChoice& table) {
   const lut::Layout& layout = table.layout;
   return fmt::format("{} {}x{} {} {} reach {:.3g} {}", lut::name_of(layout.kind), layout.width,
                      layout.height, lut::name_of(layout.storage), lut::name_of(layout.coordinate),
-                     layout.reach, table.filter == lut::Filter::linear ? "linear" : "nearest");
+                     layout.reach, lut::name_of(table.filter));
 }
 
 void print_row(const TableResidual& result) {

@@ -33,6 +33,12 @@ inline constexpr Parameter tangent_angle{
         "frame, from its x towards its y",
     .source = "Ward 1992, eq. 5a: phi is measured from x"};
 
+/// The direction's components in the frame whose tangent is at psi, of that cosine and sine.
+template <class S, class D>
+Direction<S> turned(const Direction<D>& w, const S& cosine, const S& sine) {
+  return {cosine * S(w.x) + sine * S(w.y), cosine * S(w.y) - sine * S(w.x), S(w.z)};
+}
+
 /// The anisotropic term T with the parameter psi after its own shape.
 template <Term T>
 struct FreeFrame {
@@ -60,12 +66,9 @@ struct FreeFrame {
     using std::sin;
     const S c = cos(theta[own_shape]);
     const S s = sin(theta[own_shape]);
-    const auto turned = [&](const Direction<D>& w) {
-      return Direction<S>{c * S(w.x) + s * S(w.y), c * S(w.y) - s * S(w.x), S(w.z)};
-    };
     std::array<S, own_shape> own;
     std::copy_n(theta.begin(), own_shape, own.begin());
-    return T::template basis<S, S>(own, turned(wi), turned(wo));
+    return T::template basis<S, S>(own, turned(wi, c, s), turned(wo, c, s));
   }
 };
 

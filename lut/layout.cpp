@@ -26,10 +26,6 @@ auto named(const List& list, std::string_view name, std::string_view what) {
       fmt::format("unknown {} '{}', expected {}", what, name, fmt::join(names, ", ")));
 }
 
-bool is_strauss(TableKind kind) {
-  return kind == TableKind::strauss_j || kind == TableKind::strauss_terms;
-}
-
 bool is_ward(TableKind kind) {
   return kind == TableKind::ward_exponent || kind == TableKind::ward_lobe;
 }
@@ -181,9 +177,30 @@ void take_shape_of(const brdf::BoundModel& model, Layout& layout) {
   layout.highest = highest.value();
 }
 
+void check_has_table(const brdf::Model& model, TableKind kind) {
+  const std::vector<TableKind> tables = tables_for(model);
+  if (std::find(tables.begin(), tables.end(), kind) != tables.end()) return;
+  if (tables.empty()) {
+    throw std::invalid_argument(
+        fmt::format("the model {} has no table; ward, ward-duer, ward-gmd (also -aniso), "
+                    "blinn-phong, strauss and strauss-listing have",
+                    model.name()));
+  }
+  std::vector<std::string_view> names;
+  for (const TableKind table : tables) names.push_back(name_of(table));
+  throw std::invalid_argument(fmt::format("found the table {} for the model {}: expected {}",
+                                          name_of(kind), model.name(), fmt::join(names, " or ")));
+}
+
 }  // namespace
 
+bool is_strauss(TableKind kind) {
+  return kind == TableKind::strauss_j || kind == TableKind::strauss_terms;
+}
+
 int channels_of(TableKind kind) { return is_strauss(kind) ? 2 : 1; }
+
+std::string_view parameter_of(TableKind kind) { return bounds_of(kind).name; }
 
 std::string_view name_of(TableKind kind) {
   switch (kind) {
@@ -223,11 +240,16 @@ Coordinate coordinate_named(std::string_view name) {
 
 Storage storage_named(std::string_view name) { return named(all_storages, name, "storage"); }
 
+Filter filter_named(std::string_view name) { return named(all_filters, name, "filter"); }
+
 void check(const Layout& layout) {
   check_size(layout);
-  check_axis(layout);
+  // First: the reach may have been found from them.
   check_parameters(layout);
+  check_axis(layout);
 }
+
+bool has_rows(const Layout& layout) { return !is_strauss(layout.kind) && layout.height > 1; }
 
 bool serves_any_alpha(const Layout& layout) {
   return layout.kind == TableKind::ward_exponent && layout.reach == 1 &&
@@ -296,24 +318,18 @@ std::vector<TableKind> tables_for(const brdf::Model& model) {
   return tables;
 }
 
+int rows_for(const Layout& layout) {
+  if (is_strauss(layout.kind)) return layout.width;
+  const bool is_range = layout.lowest < layout.highest;
+  return is_range && layout.kind != TableKind::ward_exponent ? rows_of_a_range : 1;
+}
+
 Layout layout_for(const brdf::BoundModel& model, TableKind kind) {
-  const std::vector<TableKind> tables = tables_for(model.model());
-  if (std::find(tables.begin(), tables.end(), kind) == tables.end()) {
-    std::vector<std::string_view> names;
-    for (const TableKind table : tables) names.push_back(name_of(table));
-    const std::string expected =
-        names.empty() ? "this model has no table; ward, ward-duer, ward-gmd (also -aniso), "
-                        "blinn-phong, strauss and strauss-listing have"
-                      : fmt::format("expected {}", fmt::join(names, " or "));
-    throw std::invalid_argument(fmt::format("found the table {} for the model {}: {}",
-                                            name_of(kind), model.model().name(), expected));
-  }
+  check_has_table(model.model(), kind);
   Layout layout;
   layout.kind = kind;
   take_shape_of(model, layout);
-  const bool has_rows = kind == TableKind::ward_lobe || kind == TableKind::blinn_phong_power;
-  if (is_strauss(kind)) layout.height = layout.width;
-  if (has_rows && layout.lowest < layout.highest) layout.height = rows_of_a_range;
+  layout.height = rows_for(layout);
   return layout;
 }
 

@@ -45,8 +45,14 @@ inline constexpr std::array all_table_kinds{TableKind::ward_exponent, TableKind:
 inline constexpr std::array all_coordinates{Coordinate::listing, Coordinate::cosine,
                                             Coordinate::sqrt, Coordinate::fourth_root};
 
+/// Whether it is strauss-j or strauss-terms, whose two axes and two channels are of strauss.
+bool is_strauss(TableKind kind);
+
 /// 2 for the strauss tables, else 1.
 int channels_of(TableKind kind);
+
+/// "alpha" or "exponent": what the rows of a lobe's table are of. Not for the strauss tables.
+std::string_view parameter_of(TableKind kind);
 
 /// "ward-exponent", ..
 std::string_view name_of(TableKind kind);
@@ -56,6 +62,7 @@ std::string_view name_of(Coordinate coordinate);
 TableKind table_kind_named(std::string_view name);
 Coordinate coordinate_named(std::string_view name);
 Storage storage_named(std::string_view name);
+Filter filter_named(std::string_view name);
 
 inline constexpr int least_size = 16;
 inline constexpr int largest_size = 4096;
@@ -82,6 +89,9 @@ struct Layout {
 
 /// Throws std::invalid_argument that says what is wrong with the layout and what is possible.
 void check(const Layout& layout);
+
+/// Whether the second axis is of a lobe's parameter: each row another alpha or exponent.
+bool has_rows(const Layout& layout);
 
 /// exp(-x) is taken for 0 from here on: 1.1e-7, one step of a float at 1.
 inline constexpr double negligible_decay = 16;
@@ -117,12 +127,16 @@ bool is_served(const brdf::TermDescription& term, TableKind kind);
 /// The tables by which terms of the model can be evaluated; empty if there are none.
 std::vector<TableKind> tables_for(const brdf::Model& model);
 
-/// How many rows layout_for() gives a range of parameters.
+/// How many rows rows_for() gives a range of parameters.
 inline constexpr int rows_of_a_range = 64;
+
+/// The height that the parameters of the layout need: 1, rows_of_a_range, or `width` for strauss
+/// tables.
+int rows_for(const Layout& layout);
 
 /// A layout of the kind that serves the model's parameters: lowest and highest (for an anisotropic
 /// lobe its alphas; for two lobes those of both), of_cosine, transparency, and the height that
-/// these need (1, rows_of_a_range, `width` for strauss tables). Throws std::invalid_argument that
+/// these need (rows_for). Throws std::invalid_argument that
 /// names the model's tables if this is none of them.
 Layout layout_for(const brdf::BoundModel& model, TableKind kind);
 

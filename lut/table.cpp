@@ -100,11 +100,11 @@ std::array<double, most_channels> value_at(const Layout& layout, int column, int
 std::array<Decoding, most_channels> decoding_of(const Layout& layout) {
   if (layout.kind != TableKind::ward_exponent || layout.storage == Storage::r32f) return {};
   const double end = -negligible_decay * layout.highest * layout.highest;
-  if (is_integer(layout.storage)) return {Decoding{.scale = static_cast<float>(end), .offset = 0}};
+  if (is_integer(layout.storage)) return {Decoding{.scale = static_cast<float>(end)}};
   // A power of two: it leaves the comparison with the end exact.
   constexpr double largest_power_of_half = 0x1p15;
   const double scale = std::exp2(std::ceil(std::log2(-end / largest_power_of_half)));
-  return {Decoding{.scale = static_cast<float>(scale), .offset = 0}};
+  return {Decoding{.scale = static_cast<float>(scale)}};
 }
 
 float end_of_exponent(const Layout& layout) {
@@ -128,9 +128,7 @@ Table bake(const Layout& layout) {
     for (int column = 0; column < layout.width; ++column) {
       const std::array<double, most_channels> values = value_at(layout, column, row);
       for (std::size_t c = 0; c < channels; ++c) {
-        const Decoding& code = table.decoding[c];
-        const double texel =
-            (values[c] - static_cast<double>(code.offset)) / static_cast<double>(code.scale);
+        const double texel = values[c] / static_cast<double>(table.decoding[c].scale);
         table.texture.texels.push_back(stored(texel, layout.storage));
       }
     }
@@ -142,16 +140,12 @@ template <class T>
 std::array<T, most_channels> look_up(const Table& table, T first, T second, Filter filter,
                                      Weights weights) {
   const Layout& layout = table.layout;
-  const bool has_rows =
-      layout.kind == TableKind::ward_lobe || layout.kind == TableKind::blinn_phong_power;
   const T u = texture_coordinate(layout, layout.width, first);
-  const T v = channels_of(layout.kind) == 2 ? texture_coordinate(layout, layout.height, second)
-              : has_rows                    ? row_coordinate(layout, second)
-                                            : T(0.5);
+  const T v = is_strauss(layout.kind) ? texture_coordinate(layout, layout.height, second)
+                                      : row_coordinate(layout, second);
   std::array<T, most_channels> values = sample(table.texture, u, v, filter, weights);
   for (std::size_t c = 0; c < values.size(); ++c) {
-    const Decoding& code = table.decoding[c];
-    values[c] = static_cast<T>(code.offset) + static_cast<T>(code.scale) * values[c];
+    values[c] *= static_cast<T>(table.decoding[c].scale);
   }
   return values;
 }

@@ -8,14 +8,13 @@
 
 namespace gonio::lut {
 
-/// How a channel's value is found from what the texture gives: offset + scale * texel. 0 and 1 but
-/// for ward-exponent, whose scale is chosen for the largest alpha served: the integers cover
+/// How a channel's value is found from what the texture gives: scale * texel. 1 but for
+/// ward-exponent, whose scale is chosen for the largest alpha served: the integers cover
 /// -negligible_decay highest^2 .. 0, with 0 at the texel 0; r16f holds the same in -2^15 .. 0,
 /// scaled by a power of two, so that lobes up to most_alphas_of_half times narrower end above the
 /// smallest half floats too.
 struct Decoding {
   float scale = 1;
-  float offset = 0;
 };
 
 struct Table {

@@ -40,7 +40,6 @@ constexpr const char* highest_attribute = "gonioHighest";
 constexpr const char* argument_attribute = "gonioArgument";
 constexpr const char* transparency_attribute = "gonioTransparency";
 constexpr const char* scale_attribute = "gonioScale";
-constexpr const char* offset_attribute = "gonioOffset";
 
 class MemoryOutput : public Imf::OStream {
  public:
@@ -81,21 +80,10 @@ class MemoryInput : public Imf::IStream {
   std::size_t position_ = 0;
 };
 
-bool is_of_strauss(TableKind kind) {
-  return kind == TableKind::strauss_j || kind == TableKind::strauss_terms;
-}
-
+/// Integers are written as the 0..1 that they stand for: UINT is for identifiers, and what loads it
+/// makes of the codes what it likes.
 Imf::PixelType pixel_type(Storage storage) {
-  switch (storage) {
-    case Storage::r32f:
-      return Imf::FLOAT;
-    case Storage::r16f:
-      return Imf::HALF;
-    case Storage::unorm16:
-    case Storage::unorm8:
-      return Imf::UINT;
-  }
-  return Imf::FLOAT;
+  return storage == Storage::r16f ? Imf::HALF : Imf::FLOAT;
 }
 
 std::string_view name_of(Imf::PixelType type) {
@@ -109,9 +97,6 @@ std::string_view name_of(Imf::PixelType type) {
   }
 }
 
-/// The code of 1 in an integer storage.
-float largest_code(Storage storage) { return storage == Storage::unorm8 ? 255.0F : 65535.0F; }
-
 void write_attributes(const Table& table, Imf::Header& header) {
   const Layout& layout = table.layout;
   const auto text = [](std::string_view value) { return Imf::StringAttribute(std::string(value)); };
@@ -120,7 +105,7 @@ void write_attributes(const Table& table, Imf::Header& header) {
   header.insert(coordinate_attribute, text(lut::name_of(layout.coordinate)));
   header.insert(storage_attribute, text(lut::name_of(layout.storage)));
   header.insert(reach_attribute, Imf::DoubleAttribute(layout.reach));
-  if (is_of_strauss(layout.kind)) {
+  if (is_strauss(layout.kind)) {
     header.insert(argument_attribute, text(layout.of_cosine ? "cosine" : "angle"));
     header.insert(transparency_attribute, Imf::DoubleAttribute(layout.transparency));
   } else {
@@ -129,7 +114,6 @@ void write_attributes(const Table& table, Imf::Header& header) {
   }
   const auto& [first, second] = table.decoding;
   header.insert(scale_attribute, Imf::V2fAttribute({first.scale, second.scale}));
-  header.insert(offset_attribute, Imf::V2fAttribute({first.offset, second.offset}));
   Imf::addComments(header, sampling_text(layout));
 }
 
@@ -147,66 +131,57 @@ Imf::FrameBuffer frame_buffer(std::vector<Pixel>& pixels, const Texture& texture
   return buffer;
 }
 
-template <class Pixel, class Encode>
-void write_pixels(Imf::OutputFile& file, const Texture& texture, const Encode& encode) {
-  std::vector<Pixel> pixels(texture.texels.size());
-  std::transform(texture.texels.begin(), texture.texels.end(), pixels.begin(), encode);
+template <class Pixel>
+void write_pixels(Imf::OutputFile& file, const Texture& texture) {
+  std::vector<Pixel> pixels(texture.texels.begin(), texture.texels.end());
   file.setFrameBuffer(frame_buffer(pixels, texture));
   file.writePixels(texture.height);
 }
 
-template <class Pixel, class Decode>
-void read_pixels(Imf::InputFile& file, Texture& texture, const Decode& decode) {
+template <class Pixel>
+void read_pixels(Imf::InputFile& file, Texture& texture) {
   std::vector<Pixel> pixels(static_cast<std::size_t>(texture.width) *
                             static_cast<std::size_t>(texture.height) *
                             static_cast<std::size_t>(texture.channels));
   file.setFrameBuffer(frame_buffer(pixels, texture));
   file.readPixels(0, texture.height - 1);
-  texture.texels.resize(pixels.size());
-  std::transform(pixels.begin(), pixels.end(), texture.texels.begin(), decode);
+  texture.texels.assign(pixels.begin(), pixels.end());
 }
 
 void write_texels(Imf::OutputFile& file, const Texture& texture) {
-  switch (pixel_type(texture.storage)) {
-    case Imf::HALF:
-      return write_pixels<half>(file, texture, [](float texel) { return half(texel); });
-    case Imf::UINT:
-      return write_pixels<unsigned>(file, texture, [&](float texel) {
-        return static_cast<unsigned>(std::lround(texel * largest_code(texture.storage)));
-      });
-    default:
-      return write_pixels<float>(file, texture, [](float texel) { return texel; });
-  }
+  if (pixel_type(texture.storage) == Imf::HALF) return write_pixels<half>(file, texture);
+  write_pixels<float>(file, texture);
 }
 
 void read_texels(Imf::InputFile& file, Texture& texture) {
-  switch (pixel_type(texture.storage)) {
-    case Imf::HALF:
-      return read_pixels<half>(file, texture, [](half texel) { return static_cast<float>(texel); });
-    case Imf::UINT:
-      return read_pixels<unsigned>(file, texture, [&](unsigned code) {
-        const float largest = largest_code(texture.storage);
-        // A code beyond the storage's becomes a texel beyond 1, which is refused.
-        return static_cast<float>(code) / largest;
-      });
-    default:
-      return read_pixels<float>(file, texture, [](float texel) { return texel; });
+  if (pixel_type(texture.storage) == Imf::HALF) return read_pixels<half>(file, texture);
+  read_pixels<float>(file, texture);
+}
+
+std::string_view numbers_of(Storage storage) {
+  switch (storage) {
+    case Storage::r32f:
+    case Storage::r16f:
+      break;
+    case Storage::unorm16:
+      return "a multiple of 1/65535 from 0 to 1, which unorm16 holds";
+    case Storage::unorm8:
+      return "a multiple of 1/255 from 0 to 1, which unorm8 holds";
   }
+  return "a finite number";
 }
 
 /// Throws for what no bake stores.
 void check_texels(const Texture& texture) {
-  const bool is_integer = pixel_type(texture.storage) == Imf::UINT;
   for (std::size_t i = 0; i < texture.texels.size(); ++i) {
     const float texel = texture.texels[i];
-    if (std::isfinite(texel) && (!is_integer || texel <= 1)) continue;
+    // Not equal for one that is infinite or no number, whatever the storage.
+    if (stored(static_cast<double>(texel), texture.storage) == texel) continue;
     const auto channels = static_cast<std::size_t>(texture.channels);
     const auto width = static_cast<std::size_t>(texture.width);
-    const float largest = largest_code(texture.storage);
-    throw std::runtime_error(fmt::format(
-        "channel {}, texel ({}, {}): found {}, expected {}", channel_names[i % channels],
-        i / channels % width, i / channels / width, is_integer ? texel * largest : texel,
-        is_integer ? fmt::format("a code of 0 to {}", largest) : "a finite number"));
+    throw std::runtime_error(fmt::format("channel {}, texel ({}, {}): found {}, expected {}",
+                                         channel_names[i % channels], i / channels % width,
+                                         i / channels / width, texel, numbers_of(texture.storage)));
   }
 }
 
@@ -266,7 +241,7 @@ Layout layout_of(const Imf::Header& header) {
   layout.reach = value_of<Imf::DoubleAttribute>(header, reach_attribute);
   layout.width = window.max.x + 1;
   layout.height = window.max.y + 1;
-  if (is_of_strauss(layout.kind)) {
+  if (is_strauss(layout.kind)) {
     layout.of_cosine = is_of_cosine(header);
     layout.transparency = value_of<Imf::DoubleAttribute>(header, transparency_attribute);
   } else {
@@ -280,17 +255,11 @@ Layout layout_of(const Imf::Header& header) {
 void check_decoding(const Imf::Header& header,
                     const std::array<Decoding, most_channels>& expected) {
   const auto& scale = value_of<Imf::V2fAttribute>(header, scale_attribute);
-  const auto& offset = value_of<Imf::V2fAttribute>(header, offset_attribute);
   const auto& [first, second] = expected;
-  if (scale == Imath::V2f(first.scale, second.scale) &&
-      offset == Imath::V2f(first.offset, second.offset)) {
-    return;
-  }
-  throw std::runtime_error(fmt::format(
-      "attributes {} and {}: found ({}, {}) and ({}, {}), expected ({}, {}) and ({}, {}) of this "
-      "table and storage",
-      scale_attribute, offset_attribute, scale.x, scale.y, offset.x, offset.y, first.scale,
-      second.scale, first.offset, second.offset));
+  if (scale == Imath::V2f(first.scale, second.scale)) return;
+  throw std::runtime_error(
+      fmt::format("attribute {}: found ({}, {}), expected ({}, {}) of this table and storage",
+                  scale_attribute, scale.x, scale.y, first.scale, second.scale));
 }
 
 void check_channels(const Imf::Header& header, const Texture& texture) {

@@ -1,8 +1,9 @@
 // Tables as OpenEXR files, which say what they hold.
 //
-// One part, channels R (and G) in scan lines of the texture from v = 0: FLOAT for r32f, HALF for
-// r16f, UINT with the integer's code for unorm16 and unorm8. Typed attributes, all needed to read
-// it back: see docs/lut.md.
+// One part, channels R (and G) in scan lines of the texture from v = 0: HALF for r16f, else
+// FLOAT; of unorm16 and unorm8 the 0..1 that the integers stand for, which a program that makes the
+// texture rounds to the integers again without a loss. Typed attributes, all needed to read it
+// back: see docs/lut.md.
 #pragma once
 
 #include <string>

@@ -10,8 +10,10 @@
 #include <string>
 #include <string_view>
 
+#include "brdf/free_frame.h"
 #include "brdf/half_vector_lobe.h"
 #include "brdf/strauss.h"
+#include "brdf/ward.h"
 
 namespace gonio::lut {
 namespace {
@@ -61,34 +63,28 @@ double ward_numerator(const Reader& read, double w, double k) {
 }
 
 /// What the model divides its E by.
-double ward_denominator(std::string_view name, double alpha_x_alpha_y, const Direction& wi,
-                        const Direction& wo, const Direction& h) {
-  if (name.starts_with("ward-duer")) return 4 * pi * alpha_x_alpha_y * wi.z * wo.z;
-  if (name.starts_with("ward-gmd")) {
-    const double x = h.x / h.z;
-    const double y = h.y / h.z;
-    return pi * alpha_x_alpha_y * h.z * h.z / (1 + x * x + y * y);
+double ward_denominator(std::string_view name, double alpha_x, double alpha_y, const Direction& wi,
+                        const Direction& wo) {
+  if (name.starts_with(brdf::WardDuerLobe::name)) {
+    return brdf::WardDuerLobe::denominator(alpha_x, alpha_y, wi, wo);
   }
-  return 4 * pi * alpha_x_alpha_y * std::sqrt(wi.z) * std::sqrt(wo.z);
-}
-
-/// The direction in the frame whose tangent is at the azimuth psi (brdf/free_frame.h).
-Direction turned(const Direction& w, double psi) {
-  const double c = std::cos(psi);
-  const double s = std::sin(psi);
-  return {c * w.x + s * w.y, c * w.y - s * w.x, w.z};
+  if (name.starts_with(brdf::WardGmdLobe::name)) {
+    return brdf::WardGmdLobe::denominator(alpha_x, alpha_y, wi, wo);
+  }
+  return brdf::WardLobe::denominator(alpha_x, alpha_y, wi, wo);
 }
 
 double ward(const Reader& read, const brdf::TermEntry& term, std::span<const double> shape,
             const Direction& wi, const Direction& wo) {
   const Direction h = brdf::half_vector(wi, wo);
   const bool is_free = shape.size() == 3;
-  const Direction local = is_free ? turned(h, shape[2]) : h;
+  const Direction local = is_free ? brdf::turned(h, std::cos(shape[2]), std::sin(shape[2])) : h;
   const double k = per_alpha_squared(term.description, shape, local);
   const double numerator = ward_numerator(read, distance_from_normal(h), k);
   if (numerator <= 0) return 0;
-  const double alphas = shape[0] * (term.description.anisotropic ? shape[1] : shape[0]);
-  const double value = numerator / ward_denominator(term.description.name, alphas, wi, wo, h);
+  const double alpha_y = term.description.anisotropic ? shape[1] : shape[0];
+  const double value =
+      numerator / ward_denominator(term.description.name, shape[0], alpha_y, wi, wo);
   return std::min(value, std::numeric_limits<double>::max());
 }
 
@@ -160,6 +156,13 @@ void read_term(const Reader& read, const brdf::TermEntry& term, std::span<const 
   }
 }
 
+/// "alpha 0.1", "exponent 10 to 1000"
+std::string range_text(const Layout& layout) {
+  const std::string_view name = parameter_of(layout.kind);
+  if (layout.lowest == layout.highest) return fmt::format("{} {}", name, layout.lowest);
+  return fmt::format("{} {} to {}", name, layout.lowest, layout.highest);
+}
+
 /// Throws if the table's rows or fixed parameters are of another material.
 void check_serves(const Layout& table, const Layout& needed) {
   const auto refuse = [&](const std::string& what) {
@@ -172,8 +175,7 @@ void check_serves(const Layout& table, const Layout& needed) {
     case TableKind::blinn_phong_power:
       if (serves_any_alpha(table)) return;
       if (needed.lowest < table.lowest || needed.highest > table.highest) {
-        refuse(fmt::format("for {} to {}, the material's are {} to {}", table.lowest, table.highest,
-                           needed.lowest, needed.highest));
+        refuse(fmt::format("for {}, the material has {}", range_text(table), range_text(needed)));
       }
       return;
     case TableKind::strauss_j:
@@ -194,10 +196,14 @@ void check_serves(const Layout& table, const Layout& needed) {
 
 }  // namespace
 
+void require_serves(const brdf::BoundModel& model, const Table& table) {
+  check_serves(table.layout, layout_for(model, table.layout.kind));
+}
+
 TableModel::TableModel(const brdf::BoundModel& model, const Table& table, Filter filter,
                        Weights weights)
     : model_(model), table_(&table), filter_(filter), weights_(weights) {
-  check_serves(table.layout, layout_for(model, table.layout.kind));
+  require_serves(model, table);
 }
 
 void TableModel::f_r(const Direction& wi, const Direction& wo, std::span<double> values) const {

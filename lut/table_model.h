@@ -21,15 +21,18 @@
 
 namespace gonio::lut {
 
+/// Throws std::invalid_argument if no term of the model is in the table (layout_for), or the
+/// table's alphas, exponents, argument or transparency are not the material's.
+void require_serves(const brdf::BoundModel& model, const Table& table);
+
 /// Evaluates in double all but the table's texels, so that its difference from the model is the
 /// error of the table alone. Every term of the model that the table serves is read from it; the
 /// others are computed.
 class TableModel {
  public:
-  /// The table must outlive it. Throws std::invalid_argument if no term of the model is in the
-  /// table (layout_for), or the table's alphas, exponents, argument or transparency are not the
-  /// material's.
+  /// The table must outlive it. Throws as require_serves().
   TableModel(const brdf::BoundModel& model, const Table& table, Filter filter, Weights weights);
+  TableModel(const brdf::BoundModel&, Table&&, Filter, Weights) = delete;
 
   /// As brdf::BoundModel::f_r: in 1/sr, every channel, finite, 0 below the horizon.
   void f_r(const brdf::Direction<double>& wi, const brdf::Direction<double>& wo,

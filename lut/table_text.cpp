@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "brdf/ward.h"
 #include "lut/table.h"
 
 namespace gonio::lut {
@@ -10,8 +11,15 @@ namespace {
 constexpr std::string_view half_vector_text =
     "h = wi + wo; w = 1 - n.h = (h.x^2 + h.y^2) / (|h| (|h| + h.z))";
 
-constexpr std::string_view alpha_text =
-    "1 / alpha^2 = ((h.x / alpha_x)^2 + (h.y / alpha_y)^2) / (h.x^2 + h.y^2) if it is anisotropic";
+/// How the alpha of an anisotropic lobe follows, also where h is the normal, and what E goes into.
+std::string ward_text() {
+  return fmt::format(
+      "if anisotropic: q = h.x^2 + h.y^2; "
+      "1 / alpha^2 = q > 1e-30 ? ((h.x / ax)^2 + (h.y / ay)^2) / q : 1 / ax^2\n"
+      "f_r / rho_s: {} {}; {} {}; {} {}",
+      brdf::WardLobe::name, brdf::WardLobe::summary, brdf::WardDuerLobe::name,
+      brdf::WardDuerLobe::summary, brdf::WardGmdLobe::name, brdf::WardGmdLobe::summary);
+}
 
 /// c(w) and the coordinate of an axis.
 std::string coordinate_text(const Layout& layout, char axis, std::string_view w, int size) {
@@ -35,11 +43,11 @@ std::string row_text(const Layout& layout, std::string_view parameter) {
 std::string exponent_text(const Layout& layout) {
   const float scale = decoding_of(layout)[0].scale;
   if (layout.storage == Storage::r32f) {
-    return fmt::format("E = exp(texel / alpha^2)\n{}", alpha_text);
+    return fmt::format("E = exp(texel / alpha^2)\n{}", ward_text());
   }
   return fmt::format("E = {} ? exp({:.9g} * texel / alpha^2) : 0\n{}",
                      layout.storage == Storage::r16f ? "texel > -65504" : "texel < 1", scale,
-                     alpha_text);
+                     ward_text());
 }
 
 std::string strauss_j_text(const Layout& layout) {
@@ -83,7 +91,7 @@ std::string sampling_text(const Layout& layout) {
     case TableKind::ward_exponent:
       return lobe("", exponent_text(layout));
     case TableKind::ward_lobe:
-      return lobe("alpha", fmt::format("E = texel\n{}", alpha_text));
+      return lobe("alpha", fmt::format("E = texel\n{}", ward_text()));
     case TableKind::blinn_phong_power:
       return lobe("exponent", "(n.h)^exponent = texel");
     case TableKind::strauss_j:

@@ -75,6 +75,8 @@ std::string_view name_of(Storage storage) {
   return {};
 }
 
+std::string_view name_of(Filter filter) { return filter == Filter::linear ? "linear" : "nearest"; }
+
 std::size_t bytes_per_channel(Storage storage) {
   switch (storage) {
     case Storage::r32f:

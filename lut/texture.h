@@ -23,9 +23,12 @@ enum class Weights { exact, quantised };
 
 inline constexpr std::array all_storages{Storage::r32f, Storage::r16f, Storage::unorm16,
                                          Storage::unorm8};
+inline constexpr std::array all_filters{Filter::nearest, Filter::linear};
 
 /// "r32f", "r16f", "unorm16", "unorm8"
 std::string_view name_of(Storage storage);
+/// "nearest", "linear"
+std::string_view name_of(Filter filter);
 std::size_t bytes_per_channel(Storage storage);
 
 /// No table has more.

@@ -8,7 +8,7 @@
 namespace gonio::render {
 namespace {
 
-OIIO::ImageSpec spec_of(const EncodingRequest& request, OIIO::TypeDesc type) {
+OIIO::ImageSpec spec_of(const EncodingRequest& request, const OIIO::TypeDesc& type) {
   OIIO::ImageSpec spec(request.width, request.height, 4, type);
   spec.alpha_channel = 3;
   for (const auto& [name, text] : request.attributes) spec.attribute(name, text);

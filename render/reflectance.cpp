@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "brdf/float_direction.h"
 #include "table/parallel.h"
 
 namespace gonio::render {
@@ -10,10 +11,6 @@ namespace {
 
 /// Pairs that one thread evaluates at a time.
 constexpr std::size_t chunk_size = 4096;
-
-brdf::Direction<double> in_double(const brdf::Direction<float>& direction) {
-  return {direction.x, direction.y, direction.z};
-}
 
 /// Of anything that has the f_r of a BoundModel.
 template <class Model>
@@ -26,7 +23,7 @@ Reflectance cpu_reflectance(const Model& model, std::size_t channel_count,
       std::vector<double> f_r(channel_count);
       const std::size_t end = std::min(pairs.size(), (chunk + 1) * chunk_size);
       for (std::size_t i = chunk * chunk_size; i < end; ++i) {
-        model.f_r(in_double(pairs[i].wi), in_double(pairs[i].wo), f_r);
+        model.f_r(brdf::in_double(pairs[i].wi), brdf::in_double(pairs[i].wo), f_r);
         for (std::size_t c = 0; c < 3; ++c) values[i][c] = saturated(f_r[channels[c]]);
       }
     });

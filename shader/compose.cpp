@@ -93,8 +93,7 @@ std::string function_source(const brdf::BoundModel& model, Language language,
 
 std::string function_source(const brdf::BoundModel& model, const lut::Table& table,
                             Language language, const SourceText& text) {
-  // It refuses a table of another material.
-  const lut::TableModel served(model, table, lut::Filter::linear, lut::Weights::exact);
+  lut::require_serves(model, table);
   const TableText table_text{table.layout, table.decoding, table_function(text)};
   return source_of(model, table_text, language, text);
 }

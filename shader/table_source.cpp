@@ -15,10 +15,6 @@ using brdf::TermKind;
 using lut::Coordinate;
 using lut::TableKind;
 
-bool is_strauss(TableKind kind) {
-  return kind == TableKind::strauss_j || kind == TableKind::strauss_terms;
-}
-
 /// The lobes from their numerators, and strauss from its terms.
 std::vector<TermSource> make_lobe_sources() {
   std::vector<TermSource> sources;
@@ -98,8 +94,6 @@ std::string inverse_alpha2(const TableTerm& term) {
   return fmt::format("gonio_at_azimuth({}, {}, {})", of(0), of(1), term.half_vector);
 }
 
-bool has_rows(const lut::Layout& layout) { return !is_strauss(layout.kind) && layout.height > 1; }
-
 /// The second texture coordinate of a lobe.
 std::string row_of(const lut::Layout& layout, const TableTerm& term) {
   if (!(has_rows(layout) && term.entry.description.anisotropic)) {
@@ -145,19 +139,13 @@ std::size_t components_of(TableKind kind) {
 std::string decoded(const TableText& table, const std::string& uv) {
   const std::size_t channels = components_of(table.layout.kind);
   std::vector<double> scale;
-  std::vector<double> offset;
   for (std::size_t c = 0; c < channels; ++c) {
     scale.push_back(double(table.decoding[c].scale));
-    offset.push_back(double(table.decoding[c].offset));
   }
-  const auto all_are = [](const std::vector<double>& values, double value) {
-    return std::all_of(values.begin(), values.end(), [&](double v) { return v == value; });
-  };
+  const bool is_plain = std::all_of(scale.begin(), scale.end(), [](double s) { return s == 1; });
   const std::string texel =
       fmt::format("{}({}).{}", table.function, uv, std::string_view("xy").substr(0, channels));
-  const std::string scaled =
-      all_are(scale, 1) ? texel : fmt::format("{} * {}", value_of(scale), texel);
-  return all_are(offset, 0) ? scaled : fmt::format("{} + {}", value_of(offset), scaled);
+  return is_plain ? texel : fmt::format("{} * {}", value_of(scale), texel);
 }
 
 }  // namespace

@@ -150,11 +150,14 @@ TEST(LutBakeCommand, WrongUsageIsRefusedWithWhatIsPossible) {
       {{}, "--table ward-exponent, ward-lobe"},
       {{"--table", "teapot"}, "expected ward-exponent, ward-lobe"},
       {{material, "--table", "strauss-j"}, "expected ward-exponent or ward-lobe"},
-      {{paper}, "this model has no table"},
+      {{paper}, "the model lambert has no table"},
       {{material, "--size", "15"}, "16 to 4096"},
       {{material, "--size", "8192"}, "16 to 4096"},
       {{material, "--size", "64by64"}, "N or NxM"},
       {{material, "--size", "64.5"}, "N or NxM"},
+      {{material, "--size", "64x"}, "--size: found '64x'"},
+      {{"--table", "ward-lobe", "--alpha", "0.05:"}, "--alpha: found '0.05:'"},
+      {{"--table", "ward-lobe", "--alpha", "0"}, "found alpha from 0 to 0"},
       {{material, "--coordinate", "angle"}, "listing, cosine, sqrt, fourth-root"},
       {{material, "--format", "r64f"}, "r32f, r16f, unorm16, unorm8"},
       {{material, "--reach", "half"}, "full, lobe"},
@@ -182,6 +185,44 @@ TEST(LutBakeCommand, WrongUsageIsRefusedWithWhatIsPossible) {
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "t.exr"));
   EXPECT_EQ(bake({material}, material).exit_status, 2) << "would overwrite its material";
+}
+
+TEST(LutBakeCommand, AnOptionThatSaysNothingIsRefused) {
+  const TemporaryFolder folder;
+  for (const std::string option : {"--table", "--size", "--coordinate", "--reach", "--format",
+                                   "--alpha", "--exponent", "--t", "--model"}) {
+    const auto result = bake({"--table", "ward-exponent", option, ""}, folder / "t.exr");
+    EXPECT_EQ(result.exit_status, 2) << option;
+    EXPECT_THAT(result.err, HasSubstr(option));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "t.exr"));
+}
+
+TEST(LutBakeCommand, AnExtensionOfAnotherFormatIsRefused) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"t.png", "t", "t.exr.ktx"}) {
+    const auto result = bake({"--table", "ward-exponent"}, folder / name);
+    EXPECT_EQ(result.exit_status, 2) << name;
+    EXPECT_THAT(result.err, AllOf(HasSubstr(name), HasSubstr("expected .exr")));
+    EXPECT_FALSE(std::filesystem::exists(folder / name));
+  }
+}
+
+TEST(LutBakeCommand, SaysWhichTermsAreReadAndWhichComputed) {
+  const TemporaryFolder folder;
+  const std::string material = folder.write("two.json",
+                                            R"({"format": "gonio-material", "version": 1,
+  "model": "lambert+ward+blinn-phong", "channels": ["Y"], "parameters": {"rho_d": {"value": [0.1]},
+  "rho_s": {"value": [0.3]}, "alpha": {"value": 0.1}, "ks_2": {"value": [0.1]},
+  "exponent_2": {"value": 20}}})");
+  const auto text = bake({material}, folder / "t.exr");
+  ASSERT_EQ(text.exit_status, 0) << text.err;
+  EXPECT_THAT(text.out, HasSubstr("serves: ward; computed: lambert, blinn-phong\n"));
+  const auto json = bake({material, "--table", "blinn-phong-power", "--json"}, folder / "t.exr");
+  ASSERT_EQ(json.exit_status, 0) << json.err;
+  const auto terms = nlohmann::json::parse(json.out)["terms"];
+  EXPECT_EQ(terms["served"], nlohmann::json({"blinn-phong"}));
+  EXPECT_EQ(terms["computed"], nlohmann::json({"lambert", "ward"}));
 }
 
 TEST(LutBakeCommand, AFolderThatTakesNoFileIsNamed) {

@@ -204,7 +204,7 @@ struct Refusal {
 TEST_F(LutCheckCommand, RefusesWhatItCannotDo) {
   const std::vector<Refusal> refusals{{{"--table", "strauss-j"}, "ward-exponent"},
                                       {{"--size", "5000"}, "4096"},
-                                      {{"--filter", "cubic"}, "linear or nearest"},
+                                      {{"--filter", "cubic"}, "expected nearest, linear"},
                                       {{"--tolerance", "0"}, "above 0"},
                                       {{"--max-theta", "91"}, "at most 90"},
                                       {{"--recommend", "--size", "64"}, "--recommend chooses"},

@@ -49,7 +49,6 @@ void expect_same(const Table& a, const Table& b) {
   EXPECT_EQ(a.texture.channels, b.texture.channels);
   for (std::size_t c = 0; c < most_channels; ++c) {
     EXPECT_EQ(a.decoding[c].scale, b.decoding[c].scale);
-    EXPECT_EQ(a.decoding[c].offset, b.decoding[c].offset);
   }
   ASSERT_EQ(a.texture.texels.size(), b.texture.texels.size());
   EXPECT_EQ(std::memcmp(a.texture.texels.data(), b.texture.texels.data(),
@@ -129,12 +128,20 @@ TEST(LutExr, AnUnchangedHeaderIsAccepted) {
   EXPECT_EQ(refusal(changed_file([](Imf::Header&) {})), "");
 }
 
+/// The header but for an attribute. (Imf::Header::erase() leaks the attribute in OpenEXR 3.1.)
+Imf::Header without(const Imf::Header& header, const std::string& name) {
+  Imf::Header rest;
+  for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
+    if (attribute.name() != name) rest.insert(attribute.name(), attribute.attribute());
+  }
+  return rest;
+}
+
 TEST(LutExr, AMissingAttributeIsNamed) {
-  for (const char* name :
-       {"gonioVersion", "gonioTable", "gonioCoordinate", "gonioStorage", "gonioReach",
-        "gonioLowest", "gonioHighest", "gonioScale", "gonioOffset"}) {
+  for (const char* name : {"gonioVersion", "gonioTable", "gonioCoordinate", "gonioStorage",
+                           "gonioReach", "gonioLowest", "gonioHighest", "gonioScale"}) {
     const std::string problem =
-        refusal(changed_file([&](Imf::Header& header) { header.erase(name); }));
+        refusal(changed_file([&](Imf::Header& header) { header = without(header, name); }));
     EXPECT_THAT(problem, AllOf(HasSubstr(name), HasSubstr("missing"))) << name;
   }
 }
@@ -148,7 +155,7 @@ TEST(LutExr, OddAttributesAreRefusedWithWhatWasExpected) {
   EXPECT_THAT(text_replaced("gonioStorage", "r16f"),
               AllOf(HasSubstr("R FLOAT"), HasSubstr("R HALF")));
   EXPECT_THAT(refusal(changed_file([](Imf::Header& header) {
-                header.erase("gonioReach");
+                header = without(header, "gonioReach");
                 header.insert("gonioReach", Imf::StringAttribute("1"));
               })),
               AllOf(HasSubstr("gonioReach"), HasSubstr("string"), HasSubstr("double")));
@@ -183,6 +190,48 @@ TEST(LutExr, ATexelThatIsNoNumberIsRefusedWithItsPlace) {
   const std::string problem =
       refusal(changed_file([](Imf::Header&) {}, std::numeric_limits<float>::quiet_NaN()));
   EXPECT_THAT(problem, AllOf(HasSubstr("channel R, texel (0, 0)"), HasSubstr("nan")));
+}
+
+// An ordinary loader gives the shader's texture 0..1, as the storage does.
+TEST(LutExr, IntegersAreWrittenAsTheFloatsTheyStandFor) {
+  const tests::TemporaryFolder folder;
+  for (const Storage storage : {Storage::unorm16, Storage::unorm8}) {
+    const Table table = bake({.kind = TableKind::ward_lobe,
+                              .coordinate = Coordinate::sqrt,
+                              .width = 64,
+                              .storage = storage,
+                              .lowest = 1,
+                              .highest = 1});
+    const std::string path = folder.write("t.exr", exr_of(table));
+    Imf::InputFile file(path.c_str(), 0);
+    const Imf::Channel* red = file.header().channels().findChannel("R");
+    ASSERT_NE(red, nullptr);
+    EXPECT_EQ(red->type, Imf::FLOAT);
+    std::vector<float> pixels(64);
+    Imf::FrameBuffer buffer;
+    buffer.insert("R", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(pixels.data()), 4, 4 * 64));
+    file.setFrameBuffer(buffer);
+    file.readPixels(0, 0);
+    EXPECT_EQ(pixels, table.texture.texels);
+    EXPECT_EQ(pixels.front(), 1) << "the peak";
+  }
+}
+
+TEST(LutExr, ATexelThatTheIntegersDoNotHoldIsRefused) {
+  const auto of = [](const char* storage, float value) {
+    // For alpha = 0.1 the integers cover -16 alpha^2 .. 0.
+    const auto change = [&](Imf::Header& header) {
+      header.insert("gonioStorage", Imf::StringAttribute(storage));
+      header.insert("gonioScale", Imf::V2fAttribute({static_cast<float>(-16 * 0.1 * 0.1), 1}));
+    };
+    return refusal(changed_file(change, value));
+  };
+  EXPECT_EQ(of("unorm8", 51.0F / 255), "");
+  EXPECT_EQ(of("unorm16", 13107.0F / 65535), "") << "the same fifth";
+  EXPECT_THAT(of("unorm8", 0.3F), AllOf(HasSubstr("found 0.3"), HasSubstr("1/255 from 0 to 1")));
+  EXPECT_THAT(of("unorm16", 0.3F), HasSubstr("1/65535 from 0 to 1"));
+  EXPECT_THAT(of("unorm16", 2), HasSubstr("found 2,"));
+  EXPECT_THAT(of("unorm8", -1), HasSubstr("found -1,"));
 }
 
 TEST(LutExr, WhatIsNoExrOrEndsEarlyIsRefusedInOneLine) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "lut/table_model.h"
+#include "lut/table_text.h"
 #include "tests/directions.h"
 #include "tests/extreme_directions.h"
 
@@ -171,10 +172,24 @@ TEST(LutTableModel, NothingIsLeftFarBeyondALobe) {
   }
 }
 
+// The recipe that is printed has to hold at the exact mirror direction, where h is the normal:
+// there the ratio of an anisotropic lobe's 1/alpha^2 is 0/0.
+TEST(LutTableModel, IsThePeakWhereTheHalfVectorIsTheNormal) {
+  const Direction wi = brdf::direction_from_degrees(30, 0);
+  const Direction wo{-wi.x, -wi.y, wi.z};
+  const brdf::BoundModel model = bound("ward-aniso", {0.05, 0.16});
+  for (const TableKind kind : tables_for(model.model())) {
+    const Table table = table_for(model, kind, 64, Storage::r32f);
+    const TableModel by_table(model, table, Filter::linear, Weights::exact);
+    EXPECT_DOUBLE_EQ(value_of(by_table, wi, wo), value_of(model, wi, wo));
+    EXPECT_THAT(sampling_text(table.layout), HasSubstr("q > 1e-30 ?"));
+  }
+}
+
 TEST(LutTableModel, RefusesATableOfAnotherMaterial) {
   const auto refusal = [](const brdf::BoundModel& model, const Table& table) -> std::string {
     try {
-      const TableModel by_table(model, table, Filter::linear, Weights::exact);
+      require_serves(model, table);
     } catch (const std::invalid_argument& error) {
       return error.what();
     }
@@ -182,7 +197,8 @@ TEST(LutTableModel, RefusesATableOfAnotherMaterial) {
   };
   const Table lobe = bake({.kind = TableKind::ward_lobe, .lowest = 0.1, .highest = 0.1});
   EXPECT_EQ(refusal(bound("ward", {0.1}), lobe), "");
-  EXPECT_THAT(refusal(bound("ward", {0.2}), lobe), HasSubstr("the material's are 0.2"));
+  EXPECT_THAT(refusal(bound("ward", {0.2}), lobe),
+              HasSubstr("for alpha 0.1, the material has alpha 0.2;"));
   for (const Storage storage : all_storages) {
     // Too narrow, too wide; floats to the horizon serve any.
     const Table exponent = bake({.storage = storage, .lowest = 0.1, .highest = 0.2});
@@ -192,13 +208,17 @@ TEST(LutTableModel, RefusesATableOfAnotherMaterial) {
       if (storage == Storage::r32f) {
         EXPECT_EQ(problem, "");
       } else {
-        EXPECT_THAT(problem, HasSubstr("the table is for 0.1 to 0.2, the material's are"));
+        EXPECT_THAT(problem,
+                    HasSubstr("the table is for alpha 0.1 to 0.2, the material has alpha"));
       }
     }
   }
   EXPECT_THAT(refusal(bound("ward", {0.5}), bake({.reach = 0.1, .lowest = 0.1, .highest = 0.2})),
-              HasSubstr("the table is for 0.1 to 0.2"));
-  EXPECT_THAT(refusal(bound("phong", {20}), lobe), HasSubstr("lambert+phong"));
+              HasSubstr("the table is for alpha 0.1 to 0.2"));
+  EXPECT_THAT(refusal(bound("phong", {20}), lobe), HasSubstr("lambert+phong has no table"));
+  const Table power = bake({.kind = TableKind::blinn_phong_power, .lowest = 20, .highest = 20});
+  EXPECT_THAT(refusal(bound("blinn-phong", {30}), power),
+              HasSubstr("for exponent 20, the material has exponent 30"));
   const Table j = bake({.kind = TableKind::strauss_j, .width = 16, .height = 16});
   EXPECT_THAT(refusal(bound("strauss-listing", {0.5, 0.5, 0}), j), HasSubstr("strauss-listing"));
   const Table terms = bake({.kind = TableKind::strauss_terms, .width = 16, .height = 16});

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "brdf/bound_model.h"
+#include "brdf/float_direction.h"
 #include "lut/table_model.h"
 #include "shader/evaluate.h"
 #include "tests/vulkan_device_or_skip.h"
@@ -97,9 +98,6 @@ std::vector<BoundModel> materials() {
 /// direction, and views below the horizon.
 std::vector<Pair> pairs() {
   std::vector<Pair> all;
-  const auto in_float = [](const brdf::Direction<double>& w) {
-    return brdf::Direction<float>{float(w.x), float(w.y), float(w.z)};
-  };
   for (const double incidence : {0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 89.0}) {
     const auto wi = brdf::direction_from_degrees(incidence, 20);
     for (int azimuth = 0; azimuth < 360; azimuth += 24) {
@@ -109,15 +107,11 @@ std::vector<Pair> pairs() {
         const double wi_h = wi.x * h.x + wi.y * h.y + wi.z * h.z;
         const brdf::Direction<double> wo{2 * wi_h * h.x - wi.x, 2 * wi_h * h.y - wi.y,
                                          2 * wi_h * h.z - wi.z};
-        all.push_back({in_float(wi), in_float(wo)});
+        all.push_back({brdf::in_float(wi), brdf::in_float(wo)});
       }
     }
   }
   return all;
-}
-
-brdf::Direction<double> in_double(const brdf::Direction<float>& w) {
-  return {double(w.x), double(w.y), double(w.z)};
 }
 
 /// [pair][channel]
@@ -127,7 +121,7 @@ std::vector<double> expected_of(const BoundModel& material, const lut::Table& ta
   const std::size_t channels = material.channel_count();
   std::vector<double> values(all.size() * channels);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    model.f_r(in_double(all[i].wi), in_double(all[i].wo),
+    model.f_r(brdf::in_double(all[i].wi), brdf::in_double(all[i].wo),
               std::span(values).subspan(i * channels, channels));
   }
   return values;

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "brdf/float_direction.h"
 #include "table/file_error.h"
-#include "trade/float_direction.h"
 #include "trade/lobe_grid.h"
 #include "trade/mean_square.h"
 #include "trade/texel_directions.h"
@@ -73,9 +73,10 @@ class UsedSamples {
 /// some of them in double.
 void set_pairs(Reference& reference, const std::vector<Pair>& pairs) {
   reference.pairs_in_float.reserve(pairs.size());
-  for (const Pair& pair : pairs) reference.pairs_in_float.push_back(in_float(pair));
+  for (const Pair& pair : pairs) reference.pairs_in_float.push_back(brdf::in_float(pair));
   reference.pairs.reserve(pairs.size());
-  for (const auto& pair : reference.pairs_in_float) reference.pairs.push_back(in_double(pair));
+  for (const auto& pair : reference.pairs_in_float)
+    reference.pairs.push_back(brdf::in_double(pair));
 }
 
 Reference reference_at(const brdf::BoundModel& model, const std::vector<Pair>& pairs,

@@ -69,13 +69,9 @@ struct Task {
   }
 };
 
-bool is_square(lut::TableKind kind) {
-  return kind == lut::TableKind::strauss_j || kind == lut::TableKind::strauss_terms;
-}
-
 /// How many rows a table of the width may have.
 std::vector<int> heights_of(const lut::Layout& layout, int width) {
-  if (is_square(layout.kind)) return {width};
+  if (lut::is_strauss(layout.kind)) return {width};
   if (layout.height == 1) return {1};
   return {lut::least_size, 2 * lut::least_size, 4 * lut::least_size, 8 * lut::least_size};
 }

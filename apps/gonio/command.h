@@ -34,6 +34,9 @@ void add_synth_command(CLI::App& app, Invocation& invocation);
 /// A number that is the whole of a text, whatever the locale; nothing if it is none.
 std::optional<double> parse_number(std::string_view text);
 
+/// The word as a shell takes it, quoted where it has to be.
+std::string shell_word(std::string_view word);
+
 /// Throws std::invalid_argument if writing `output` would overwrite the file `source`.
 void refuse_overwriting(const std::string& source, const std::string& output);
 

@@ -12,12 +12,11 @@
 #include "apps/gonio/lut_command.h"
 #include "apps/gonio/lut_options.h"
 #include "apps/gonio/progress.h"
-#include "lut/table_exr.h"
+#include "export/shader_table.h"
 #include "lut/table_model.h"
 #include "material/evaluate.h"
 #include "material/material_json.h"
 #include "table/file_error.h"
-#include "table/input_file.h"
 #include "table/read.h"
 #include "trade/table_choice.h"
 
@@ -28,7 +27,7 @@ struct CheckOptions {
   std::string material;
   LutOptions lut;
   std::string lut_path;
-  std::string filter = "linear";
+  std::string filter;  // linear or nearest; empty: linear
   std::string device;
   std::string samples;
   std::string tolerance;
@@ -49,12 +48,21 @@ table::SampleTable read_samples(const std::string& path) {
   return table::read(path);
 }
 
+/// Where a material's table is: as its provenance has it, or from the folder of the material.
+std::string path_of_samples(const std::string& path, const std::string& material_path) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error)) return path;
+  const auto beside = std::filesystem::path(material_path).parent_path() / path;
+  return std::filesystem::is_regular_file(beside, error) ? beside.string() : path;
+}
+
 /// The table that the material was fitted to, if it is still there and still the same.
-Samples samples_of(const material::Material& material) {
+Samples samples_of(const material::Material& material, const std::string& material_path) {
   if (!material.provenance || material.provenance->table.empty()) {
     return {std::nullopt, {}, "the material names no table; --samples TABLE does"};
   }
-  const auto& [path, sha256, gonio, command] = *material.provenance;
+  const std::string path = path_of_samples(material.provenance->table, material_path);
+  const std::string& sha256 = material.provenance->sha256;
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
     return {std::nullopt,
@@ -71,7 +79,7 @@ Samples samples_of(const material::Material& material) {
 }
 
 Samples samples_for(const CheckOptions& options, const material::Material& material) {
-  if (options.samples.empty()) return samples_of(material);
+  if (options.samples.empty()) return samples_of(material, options.material);
   return {read_samples(options.samples), options.samples, {}};
 }
 
@@ -91,10 +99,7 @@ double tolerance_in(const CheckOptions& options) {
 }
 
 lut::Filter filter_in(const CheckOptions& options) {
-  if (options.filter == "linear") return lut::Filter::linear;
-  if (options.filter == "nearest") return lut::Filter::nearest;
-  throw std::invalid_argument(
-      fmt::format("--filter: found '{}', expected linear or nearest", options.filter));
+  return options.filter.empty() ? lut::Filter::linear : lut::filter_named(options.filter);
 }
 
 /// Throws if an option that describes a table is given beside one that says which it is.
@@ -112,6 +117,10 @@ void refuse_beside(std::string_view chooser, std::string_view does, const CheckO
 
 void refuse_contradictions(const CheckOptions& options) {
   if (options.recommend) refuse_beside("--recommend", "chooses", options);
+  if (options.recommend && !options.filter.empty()) {
+    throw std::invalid_argument(fmt::format(
+        "--filter {}: --recommend chooses the filter, expected one of the two", options.filter));
+  }
   if (options.lut_path.empty()) return;
   refuse_beside("--lut", "names", options);
   if (options.recommend) {
@@ -120,22 +129,12 @@ void refuse_contradictions(const CheckOptions& options) {
   }
 }
 
-lut::Table read_table(const std::string& path) {
-  const table::InputFile file(path);
-  try {
-    return lut::table_from_exr(file.bytes());
-  } catch (const std::runtime_error& error) {
-    throw table::FileError(fmt::format("{}: {}", path, error.what()));
-  }
-}
-
 /// The table that the options name, which serves the model.
-lut::Table table_in(const CheckOptions& options, const brdf::BoundModel& model,
-                    lut::Filter filter) {
+lut::Table table_in(const CheckOptions& options, const brdf::BoundModel& model) {
   if (options.lut_path.empty()) return lut::bake(layout_from(options.lut, &model));
-  lut::Table table = read_table(options.lut_path);
+  lut::Table table = exports::read_shader_table(options.lut_path).table;
   try {
-    const lut::TableModel serves(model, table, filter, lut::Weights::exact);
+    lut::require_serves(model, table);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(fmt::format("--lut {}: {}", options.lut_path, error.what()));
   }
@@ -191,7 +190,7 @@ void check(const CheckOptions& options, Invocation& invocation) {
   refuse_contradictions(options);
   const material::Material material = material::read_material(options.material);
   const brdf::BoundModel model = material::bind(material);
-  const lut::Table table = table_in(options, model, filter);
+  const lut::Table table = table_in(options, model);
   ChosenDevice device = choose_device(options.device);
   const Samples samples = samples_for(options, material);
   const table::SampleTable* given = samples.table ? &*samples.table : nullptr;

@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <string_view>
 
+#include "apps/gonio/command.h"
+
 namespace gonio::app {
 namespace {
 
 using nlohmann::ordered_json;
-
-std::string_view name_of(lut::Filter filter) {
-  return filter == lut::Filter::linear ? "linear" : "nearest";
-}
 
 std::string texels_of(const lut::Layout& layout) {
   return layout.height == 1 ? fmt::format("{}", layout.width)
@@ -28,7 +26,7 @@ std::string headline(const LutCheckReport& report) {
   text += fmt::format(
       "table: {}, {} texels of {}, {} bytes, {} filter; coordinate {}, reach {:.3g}\n",
       lut::name_of(layout.kind), texels_of(layout), lut::name_of(layout.storage),
-      trade::size_of(layout), name_of(filter), lut::name_of(layout.coordinate), layout.reach);
+      trade::size_of(layout), lut::name_of(filter), lut::name_of(layout.coordinate), layout.reach);
   if (!report.lut_path.empty()) text += fmt::format("  of {}\n", report.lut_path);
   return text;
 }
@@ -136,8 +134,8 @@ std::string reach_option(const lut::Layout& layout) {
 std::string bake_command(const LutCheckReport& report, const lut::Layout& layout) {
   return fmt::format(
       "gonio lut bake {} --table {} --size {} --coordinate {} --reach {} --format {} -o table.exr",
-      report.path, lut::name_of(layout.kind), texels_of(layout), lut::name_of(layout.coordinate),
-      reach_option(layout), lut::name_of(layout.storage));
+      shell_word(report.path), lut::name_of(layout.kind), texels_of(layout),
+      lut::name_of(layout.coordinate), reach_option(layout), lut::name_of(layout.storage));
 }
 
 std::string limits(const LutCheckReport& report) {
@@ -198,7 +196,7 @@ std::string recommended_row(const LutCheckReport& report, const trade::GoodTable
   return fmt::format(
       "  {:>8}  {:<17} {:>9}  {:<11} {:>7.3g}  {:<7} {:<7} {:>9.2e} {:>12}\n", good.bytes,
       lut::name_of(layout.kind), texels_of(layout), lut::name_of(layout.coordinate), layout.reach,
-      lut::name_of(layout.storage), name_of(filter), good.error.largest,
+      lut::name_of(layout.storage), lut::name_of(filter), good.error.largest,
       report.limits.rms ? percent(good.error.rms / *report.fit.residual) + " %" : "-");
 }
 
@@ -248,7 +246,7 @@ ordered_json json_of(const trade::TableChoice& table) {
           {"coordinate", lut::name_of(layout.coordinate)},
           {"reach", layout.reach},
           {"format", lut::name_of(layout.storage)},
-          {"filter", name_of(table.filter)},
+          {"filter", lut::name_of(table.filter)},
           {"bytes", trade::size_of(layout)}};
 }
 

@@ -33,35 +33,37 @@ std::string names_in(const List& list) {
   throw std::invalid_argument(fmt::format("{}: found '{}', expected {}", option, found, expected));
 }
 
-double number_in(std::string_view option, std::string_view text, std::string_view expected) {
-  const std::optional<double> number = parse_number(text);
+/// The number of a part of an option's text.
+double number_in(std::string_view option, std::string_view part, std::string_view text,
+                 std::string_view expected) {
+  const std::optional<double> number = parse_number(part);
   if (!number || !std::isfinite(*number)) refuse(option, text, expected);
   return *number;
+}
+
+double number_in(std::string_view option, std::string_view text, std::string_view expected) {
+  return number_in(option, text, text, expected);
 }
 
 /// LO or LO:HI.
 std::pair<double, double> range_in(std::string_view option, const std::string& text) {
   constexpr std::string_view expected = "a number or LOWEST:HIGHEST";
   const std::size_t colon = text.find(':');
-  const double lowest = number_in(option, std::string_view(text).substr(0, colon), expected);
+  const double lowest = number_in(option, std::string_view(text).substr(0, colon), text, expected);
   if (colon == std::string::npos) return {lowest, lowest};
-  return {lowest, number_in(option, std::string_view(text).substr(colon + 1), expected)};
+  return {lowest, number_in(option, std::string_view(text).substr(colon + 1), text, expected)};
 }
 
 int texels_in(std::string_view number, const std::string& size) {
   const std::string expected =
       fmt::format("N or NxM, each a whole number of {} to {} texels (M: or 1)", lut::least_size,
                   lut::largest_size);
-  const double texels = number_in("--size", number, expected);
+  const double texels = number_in("--size", number, size, expected);
   // The layout says whether so many are possible.
   if (texels != std::floor(texels) || texels < 1 || texels > lut::largest_size) {
     refuse("--size", size, expected);
   }
   return static_cast<int>(texels);
-}
-
-bool is_strauss(TableKind kind) {
-  return kind == TableKind::strauss_j || kind == TableKind::strauss_terms;
 }
 
 void apply_size(const std::string& size, Layout& layout) {
@@ -114,12 +116,6 @@ std::optional<std::pair<double, double>> range_of_lobes(const LutOptions& option
                   kind == TableKind::ward_exponent ? " in " + options.format : std::string()));
 }
 
-/// The rows that a table of the parameters served has, unless --size says it.
-void set_rows(Layout& layout) {
-  if (layout.kind == TableKind::ward_exponent || is_strauss(layout.kind)) return;
-  layout.height = layout.lowest < layout.highest ? lut::rows_of_a_range : 1;
-}
-
 /// Lets a material's table serve the range of --alpha or --exponent, if it is given.
 void widen(const LutOptions& options, Layout& layout) {
   const auto& [option, given] = option_of_lobes(options, layout.kind);
@@ -134,7 +130,7 @@ void widen(const LutOptions& options, Layout& layout) {
   }
   layout.lowest = lowest;
   layout.highest = highest;
-  set_rows(layout);
+  layout.height = lut::rows_for(layout);
 }
 
 void refuse_unused(const LutOptions& options, TableKind kind) {
@@ -180,8 +176,7 @@ Layout layout_without_material(const LutOptions& options) {
     refuse("--model", options.model, "strauss or strauss-listing");
   }
   layout.of_cosine = options.model == "strauss-listing";
-  if (is_strauss(layout.kind)) layout.height = layout.width;
-  set_rows(layout);
+  layout.height = lut::rows_for(layout);
   return layout;
 }
 
@@ -204,45 +199,49 @@ lut::Coordinate coordinate_in(const LutOptions& options, const Layout& layout) {
   return layout.lowest < layout.highest ? lut::Coordinate::fourth_root : lut::Coordinate::cosine;
 }
 
+/// An empty text stands for an option that is not given, and so cannot be given.
+CLI::Option* add_text_option(CLI::App& command, const std::string& name, std::string& text,
+                             const std::string& description) {
+  const auto problem = [](const std::string& given) -> std::string {
+    return given.empty() ? "found nothing, expected a value" : "";
+  };
+  return command.add_option(name, text, description)->check(CLI::Validator(problem, ""));
+}
+
 }  // namespace
 
 void add_lut_options(CLI::App& command, LutOptions& options) {
-  command.add_option("--table", options.table, names_in(lut::all_table_kinds))->type_name("TABLE");
-  command
-      .add_option("--size", options.size,
+  add_text_option(command, "--table", options.table, names_in(lut::all_table_kinds))
+      ->type_name("TABLE");
+  add_text_option(command, "--size", options.size,
                   fmt::format("Texels, {} to {} along each axis; without M as many rows as the "
                               "parameters need (default 512)",
                               lut::least_size, lut::largest_size))
       ->type_name("N[xM]");
-  command
-      .add_option("--coordinate", options.coordinate,
+  add_text_option(command, "--coordinate", options.coordinate,
                   fmt::format("{} (default: cosine for one alpha or exponent, fourth-root for a "
                               "range or any alpha, sqrt for strauss-j)",
                               names_in(lut::all_coordinates)))
       ->type_name("NAME");
-  command
-      .add_option("--reach", options.reach,
+  add_text_option(command, "--reach", options.reach,
                   "The largest 1 - n.h: full (1), lobe (as far as the widest lobe served is not "
                   "0, the default where it is known), or a number")
       ->type_name("REACH");
-  command
-      .add_option("--format", options.format,
+  add_text_option(command, "--format", options.format,
                   fmt::format("{} (default r32f)", names_in(lut::all_storages)))
       ->type_name("FORMAT");
-  command
-      .add_option("--alpha", options.alpha,
+  add_text_option(command, "--alpha", options.alpha,
                   "The roughness that a ward table serves, or a range (default the material's)")
       ->type_name("LO[:HI]");
-  command
-      .add_option("--exponent", options.exponent,
+  add_text_option(command, "--exponent", options.exponent,
                   "The exponent that blinn-phong-power serves, or a range (default the material's)")
       ->type_name("LO[:HI]");
 }
 
 void add_lut_parameter_options(CLI::App& command, LutOptions& options) {
-  command.add_option("--t", options.transparency, "The t of strauss-terms (default 0)")
+  add_text_option(command, "--t", options.transparency, "The t of strauss-terms (default 0)")
       ->type_name("T");
-  command.add_option("--model", options.model, "strauss or strauss-listing, for strauss-j")
+  add_text_option(command, "--model", options.model, "strauss or strauss-listing, for strauss-j")
       ->type_name("MODEL");
 }
 

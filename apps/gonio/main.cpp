@@ -41,6 +41,23 @@ void refuse_overwriting(const std::string& source, const std::string& output) {
       fmt::format("-o {}: would overwrite what is read: name another file", output));
 }
 
+std::string shell_word(std::string_view word) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) {
+    return std::string(word);
+  }
+  std::string quoted = "'";
+  for (const char c : word) {
+    if (c == '\'') {
+      quoted += "'\\''";
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + '\'';
+}
+
 void print(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail_to_print();
 }
@@ -56,26 +73,8 @@ namespace {
 
 /// The command line as it can be pasted back into a shell.
 std::string quoted_command_line(int argc, char** argv) {
-  constexpr std::string_view plain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
   std::string line = "gonio";
-  for (int i = 1; i < argc; ++i) {
-    const std::string_view word = argv[i];
-    line += ' ';
-    if (!word.empty() && word.find_first_not_of(plain) == std::string_view::npos) {
-      line += word;
-      continue;
-    }
-    line += '\'';
-    for (const char c : word) {
-      if (c == '\'') {
-        line += "'\\''";
-      } else {
-        line += c;
-      }
-    }
-    line += '\'';
-  }
+  for (int i = 1; i < argc; ++i) line += ' ' + shell_word(argv[i]);
   return line;
 }
 

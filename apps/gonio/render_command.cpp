@@ -129,7 +129,7 @@ class Studio {
   explicit Studio(const RenderOptions& options)
       : options_(options),
         view_(view_of(options)),
-        filter_(options.filter == "nearest" ? lut::Filter::nearest : lut::Filter::linear),
+        filter_(options.filter.empty() ? lut::Filter::linear : lut::filter_named(options.filter)),
         amplification_(number_of("--difference", options.amplification, 1e-3, 1e9, 1)),
         device_(choose_device(options.device)) {}
 
