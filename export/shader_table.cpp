@@ -70,10 +70,10 @@ std::string_view filter_line(Storage storage) {
   }
 }
 
-/// The file has integers where the texture has 0 to 1.
+/// The file has the floats that the texture's integers stand for.
 std::string values_line(Storage storage) {
   if (storage != Storage::unorm16 && storage != Storage::unorm8) return {};
-  return fmt::format("values: the file's integers, 0 to {}, as they are: the texture's bits",
+  return fmt::format("values: the file's floats of 0 to 1, times {} the texture's integers",
                      storage == Storage::unorm16 ? 65535 : 255);
 }
 

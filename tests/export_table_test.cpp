@@ -221,7 +221,7 @@ TEST(ExportTable, SaysWhatHasToBeBoundAndNoFolder) {
 
   const std::string integers = header_of(TableKind::ward_lobe, Storage::unorm16);
   EXPECT_THAT(integers, AllOf(HasSubstr("512 x 64 texels"), HasSubstr("GL_R16\n"),
-                              HasSubstr("0 to 65535"), HasSubstr("EXT_texture_norm16"),
+                              HasSubstr("times 65535"), HasSubstr("EXT_texture_norm16"),
                               HasSubstr("the first scan line of the file is at v = 0")));
 }
 
