@@ -10,6 +10,7 @@
 #include "instrument/recipe.h"
 #include "material/evaluate.h"
 #include "material/from_fit.h"
+#include "table/file_error.h"
 #include "table/read.h"
 #include "trade/table_choice.h"
 
@@ -19,7 +20,13 @@ namespace fs = std::filesystem;
 
 std::vector<MeasuredMaterial> ward_materials(const std::string& project) {
   std::vector<MeasuredMaterial> materials;
-  for (const auto& entry : fs::directory_iterator(fs::path(project) / "data" / "synthetic")) {
+  const fs::path folder = fs::path(project) / "data" / "synthetic";
+  if (!fs::is_directory(folder)) {
+    throw table::FileError(folder.string() +
+                           ": not found, expected gonio's synthetic tables: name the project's "
+                           "folder by --project");
+  }
+  for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".json") continue;
     fs::path measured = entry.path();
     measured.replace_extension(".csv");
