@@ -209,7 +209,7 @@ TEST(LutExr, IntegersAreWrittenAsTheFloatsTheyStandFor) {
     EXPECT_EQ(red->type, Imf::FLOAT);
     std::vector<float> pixels(64);
     Imf::FrameBuffer buffer;
-    buffer.insert("R", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(pixels.data()), 4, 4 * 64));
+    buffer.insert("R", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(pixels.data()), 4, 256));
     file.setFrameBuffer(buffer);
     file.readPixels(0, 0);
     EXPECT_EQ(pixels, table.texture.texels);
