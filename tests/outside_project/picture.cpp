@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
     const double w = layout.reach * x / image.width;
     const auto lobe =
         float(gonio::lut::look_up(table, w, layout.lowest, gonio::lut::Filter::linear)[0]);
+    if (x == 0 && lobe != 1) return 1;  // the peak is a texel
     image.pixels.push_back({lobe, lobe, lobe, 1});
   }
   gonio::render::write_image(image, argv[1]);
