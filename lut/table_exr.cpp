@@ -6,7 +6,6 @@
 #include <ImfDoubleAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
-#include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
@@ -18,10 +17,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <stdexcept>
 #include <vector>
 
+#include "exr/attributes.h"
+#include "exr/memory_stream.h"
 #include "lut/table_text.h"
 
 namespace gonio::lut {
@@ -40,45 +40,6 @@ constexpr const char* highest_attribute = "gonioHighest";
 constexpr const char* argument_attribute = "gonioArgument";
 constexpr const char* transparency_attribute = "gonioTransparency";
 constexpr const char* scale_attribute = "gonioScale";
-
-class MemoryOutput : public Imf::OStream {
- public:
-  MemoryOutput() : OStream("table") {}
-  void write(const char* bytes, int count) override {
-    const auto size = static_cast<std::size_t>(count);
-    text_.resize(std::max(text_.size(), position_ + size));
-    std::memcpy(text_.data() + position_, bytes, size);
-    position_ += size;
-  }
-  std::uint64_t tellp() override { return position_; }
-  void seekp(std::uint64_t position) override { position_ = position; }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-  std::size_t position_ = 0;
-};
-
-class MemoryInput : public Imf::IStream {
- public:
-  explicit MemoryInput(std::string_view bytes) : IStream("table"), bytes_(bytes) {}
-  bool read(char* bytes, int count) override {
-    const auto size = static_cast<std::size_t>(count);
-    if (position_ > bytes_.size() || size > bytes_.size() - position_) {
-      throw std::runtime_error(
-          fmt::format("the file ends after {} bytes, expected more", bytes_.size()));
-    }
-    std::memcpy(bytes, bytes_.data() + position_, size);
-    position_ += size;
-    return position_ < bytes_.size();
-  }
-  std::uint64_t tellg() override { return position_; }
-  void seekg(std::uint64_t position) override { position_ = position; }
-
- private:
-  std::string_view bytes_;
-  std::size_t position_ = 0;
-};
 
 /// Integers are written as the 0..1 that they stand for: UINT is for identifiers, and what loads it
 /// makes of the codes what it likes.
@@ -188,19 +149,7 @@ void check_texels(const Texture& texture) {
 /// The value of an attribute that has to be there and of the type.
 template <class Attribute>
 const auto& value_of(const Imf::Header& header, const char* name) {
-  const auto found = header.find(name);
-  if (found == header.end()) {
-    throw std::runtime_error(
-        fmt::format("attribute {}: missing, expected one of type {}; `gonio lut bake` writes it",
-                    name, Attribute::staticTypeName()));
-  }
-  const auto* attribute = dynamic_cast<const Attribute*>(&found.attribute());
-  if (attribute == nullptr) {
-    throw std::runtime_error(fmt::format("attribute {}: found the type {}, expected {}", name,
-                                         found.attribute().typeName(),
-                                         Attribute::staticTypeName()));
-  }
-  return attribute->value();
+  return exr::value_of<Attribute>(header, name, "gonio lut bake");
 }
 
 /// The thing that the attribute's text names.
@@ -307,7 +256,7 @@ std::string exr_of(const Table& table) {
     header.channels().insert(channel_names[static_cast<std::size_t>(c)],
                              Imf::Channel(pixel_type(texture.storage)));
   }
-  MemoryOutput stream;
+  exr::MemoryOutput stream;
   {
     // Its end writes the table of the scan lines.
     Imf::OutputFile file(stream, header, 0);
@@ -318,7 +267,7 @@ std::string exr_of(const Table& table) {
 
 Table table_from_exr(std::string_view bytes) {
   try {
-    MemoryInput stream(bytes);
+    exr::MemoryInput stream(bytes);
     Imf::InputFile file(stream, 0);
     return read_table(file);
   } catch (const std::exception& e) {
