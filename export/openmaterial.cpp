@@ -15,19 +15,21 @@
 
 #include "brdf/albedo.h"
 #include "export/account.h"
-#include "export/channel_wavelength.h"
 #include "export/relative_azimuth_table.h"
-#include "export/uuid.h"
 #include "material/evaluate.h"
 #include "material/material_json.h"
+#include "table/channel_wavelength.h"
 #include "table/file_error.h"
+#include "table/formats/openmaterial_writer.h"
+#include "table/uuid.h"
 
 namespace gonio::exports {
 namespace {
 
 using nlohmann::ordered_json;
-
-constexpr std::string_view standard_version = "1.0.0";
+using table::is_rgb_channel;
+using table::openmaterial_schema_url;
+using table::wavelength_of_channel;
 
 // Wavelengths --------------------------------------------------------------------------------
 
@@ -218,33 +220,27 @@ std::string uuid_of(const material::Material& material, std::string_view kind) {
                            {"model", all["model"]},
                            {"channels", all["channels"]},
                            {"parameters", all["parameters"]}};
-  return url_uuid(fmt::format("urn:gonio:openmaterial:{}:{}", kind,
-                              named.dump(-1, ' ', false, ordered_json::error_handler_t::replace)));
-}
-
-std::string schema_url(std::string_view schema) {
-  return fmt::format(
-      "https://raw.githubusercontent.com/asam-ev/OpenMATERIAL-3D/refs/tags/v{}/schemas/{}.json",
-      standard_version, schema);
+  return table::url_uuid(
+      fmt::format("urn:gonio:openmaterial:{}:{}", kind,
+                  named.dump(-1, ' ', false, ordered_json::error_handler_t::replace)));
 }
 
 ordered_json metadata(const material::Material& material, const Exported& exported,
                       const OpenMaterialOptions& options, std::string_view kind) {
-  ordered_json json;
-  json["name"] = material.name.empty() ? material.model : material.name;
-  json["description"] = fmt::format(
+  const std::string description = fmt::format(
       "The reflectance f_r of the model {}, as a table sampled from it by gonio {}, with azimuth 0 "
       "towards the light and pi in the mirror direction. Loss of reflected radiance, read linearly "
       "between the rows in azimuth, then exit zenith, then incident zenith: {}.{}{}",
       material.model, GONIO_VERSION, loss_text(exported.loss),
       exported.warnings.empty() ? "" : " Warnings: ", fmt::join(exported.warnings, "; "));
-  json["uuid"] = uuid_of(material, kind);
-  json["materialVersion"] = "1.0.0";
-  json["openMaterial3dVersion"] = standard_version;
-  json["copyrights"] = {options.copyright};
-  json["license"] = options.license;
-  json["authors"] = {options.author};
-  return json;
+  return table::openmaterial_metadata(
+      {.name = material.name.empty() ? material.model : material.name,
+       .description = description,
+       .license = options.license,
+       .copyright = options.copyright,
+       .author = options.author,
+       .sources = {}},
+      uuid_of(material, kind));
 }
 
 std::string text_of(const ordered_json& json) {
@@ -254,7 +250,7 @@ std::string text_of(const ordered_json& json) {
 std::string material_text(const material::Material& material, const Exported& exported,
                           const std::string& stem, const OpenMaterialOptions& options) {
   ordered_json json;
-  json["$schema"] = schema_url("material_schema");
+  json["$schema"] = openmaterial_schema_url("material_schema");
   json["metadata"] = metadata(material, exported, options, "material");
   json["materialProperties"]["brdfUris"] = {stem + std::string(openmaterial_table_ending)};
   json["materialProperties"]["customProperties"]["gonio"] = {
@@ -307,7 +303,7 @@ std::string table_text(const material::Material& material, const Exported& expor
                        const std::vector<TableChannel>& channels, const RelativeAzimuthTable& table,
                        const OpenMaterialOptions& options) {
   ordered_json json;
-  json["$schema"] = schema_url("material_brdf_schema");
+  json["$schema"] = openmaterial_schema_url("material_brdf_schema");
   json["metadata"] = metadata(material, exported, options, "brdf");
   json["metadata"]["sources"] = origin_of(material);
   if (is_visible(channels)) json["metadata"]["typicalSensorTechnology"] = "camera";

@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "brdf/free_frame.h"
-#include "export/channel_wavelength.h"
 #include "material/evaluate.h"
+#include "table/channel_wavelength.h"
 #include "table/file_error.h"
 
 namespace gonio::exports {
@@ -43,8 +43,8 @@ std::optional<Channels> by_name(const std::vector<std::string>& channels) {
 std::optional<Channels> by_wavelength(const std::vector<std::string>& channels) {
   std::array<double, 3> wavelengths{};
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto wavelength = wavelength_of_channel(channels[c]);
-    if (!wavelength || is_rgb_channel(channels[c])) return {};
+    const auto wavelength = table::wavelength_of_channel(channels[c]);
+    if (!wavelength || table::is_rgb_channel(channels[c])) return {};
     wavelengths[c] = *wavelength;
   }
   Channels order{0, 1, 2};
@@ -56,7 +56,7 @@ std::optional<Channels> by_wavelength(const std::vector<std::string>& channels) 
 }
 
 bool is_invisible(const std::string& channel) {
-  const auto wavelength = wavelength_of_channel(channel);
+  const auto wavelength = table::wavelength_of_channel(channel);
   return wavelength && (*wavelength < 380e-9 || *wavelength > 780e-9);
 }
 

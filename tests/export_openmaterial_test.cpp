@@ -15,13 +15,14 @@
 #include <string>
 #include <vector>
 
-#include "export/channel_wavelength.h"
 #include "export/openmaterial.h"
 #include "export/relative_azimuth_table.h"
-#include "export/uuid.h"
 #include "material/evaluate.h"
 #include "material/material_json.h"
+#include "table/channel_wavelength.h"
 #include "table/file_error.h"
+#include "table/formats/openmaterial.h"
+#include "table/uuid.h"
 #include "tests/json_schema.h"
 #include "tests/real_data.h"
 
@@ -29,6 +30,8 @@ namespace gonio::exports {
 namespace {
 
 using nlohmann::json;
+using table::url_uuid;
+using table::wavelength_of_channel;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -337,6 +340,32 @@ TEST(OpenMaterial, BearsTheMaterialItselfAndWhereItCameFrom) {
   // Where the table lies on a disk is nobody else's business.
   for (const ExportedFile& part : exported.files) {
     EXPECT_THAT(part.text, testing::Not(HasSubstr("somebody")));
+  }
+}
+
+TEST(OpenMaterial, IsReadBackAsItWasTabulated) {
+  const material::Material paint = glossy_paint();
+  const auto grid =
+      table::read_openmaterial_grid(to_openmaterial(paint, "paint").files[1].text, "paint");
+  EXPECT_THAT(grid.channels, ElementsAre("464.3nm", "549.1nm", "611.4nm"));
+  const brdf::BoundModel model = material::bind(paint);
+  const RelativeAzimuthTable tabulated =
+      tabulate(at_azimuth_zero(material::reflectance_of(model)), 3,
+               OpenMaterialOptions().most_rows_per_wavelength);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const auto any_direction = [&] {
+    return brdf::direction_from_degrees(88.9 * unit(random), 360 * unit(random));
+  };
+  std::vector<double> read(3);
+  std::vector<double> expected(3);
+  for (int i = 0; i < 2000; ++i) {
+    const auto wi = any_direction();
+    const auto wo = any_direction();
+    grid.f_r(wi, wo, read);
+    interpolate(tabulated, wi, wo, expected);
+    // The other half of the circle is written to 7 digits.
+    for (std::size_t c = 0; c < 3; ++c) ASSERT_NEAR(read[2 - c], expected[c], 2e-4 * expected[c]);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "export/uuid.h"
+#include "table/uuid.h"
 
 #include <fmt/format.h>
 #include <openssl/evp.h>
@@ -6,7 +6,7 @@
 #include <array>
 #include <stdexcept>
 
-namespace gonio::exports {
+namespace gonio::table {
 namespace {
 
 /// 6ba7b811-9dad-11d1-80b4-00c04fd430c8
@@ -32,4 +32,4 @@ std::string url_uuid(std::string_view name) {
   return text;
 }
 
-}  // namespace gonio::exports
+}  // namespace gonio::table

@@ -6,10 +6,10 @@
 #include <string>
 #include <string_view>
 
-namespace gonio::exports {
+namespace gonio::table {
 
 /// The version 5 UUID of `name`, which is to be a URL or URN, in lower case:
 /// "xxxxxxxx-xxxx-5xxx-..".
 std::string url_uuid(std::string_view name);
 
-}  // namespace gonio::exports
+}  // namespace gonio::table

@@ -1,10 +1,10 @@
-#include "export/channel_wavelength.h"
+#include "table/channel_wavelength.h"
 
 #include <charconv>
 #include <string>
 #include <system_error>
 
-namespace gonio::exports {
+namespace gonio::table {
 
 bool is_rgb_channel(std::string_view channel) {
   return channel.size() == 1 &&
@@ -28,4 +28,4 @@ std::optional<double> wavelength_of_channel(std::string_view channel) {
   return value * metres_per_nm;
 }
 
-}  // namespace gonio::exports
+}  // namespace gonio::table

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-namespace gonio::exports {
+namespace gonio::table {
 
 /// True of R, G and B in either case.
 bool is_rgb_channel(std::string_view channel);
@@ -16,4 +16,4 @@ bool is_rgb_channel(std::string_view channel);
 /// other names.
 std::optional<double> wavelength_of_channel(std::string_view channel);
 
-}  // namespace gonio::exports
+}  // namespace gonio::table
