@@ -22,6 +22,8 @@ constexpr double bin_deg = 15;
 // plane of incidence covers 2 of 12 sectors.
 constexpr double least_coverage_for_albedo = 0.25;
 constexpr double implausibly_small_albedo = 1e-3;
+// Only where no albedo can be estimated, and a median stands for it.
+constexpr double implausibly_large_albedo = 1.5;
 constexpr double conspicuous_negative_share = 0.05;
 constexpr double conspicuous_reciprocity_error = 0.3;
 
@@ -158,6 +160,45 @@ void warn_of_negative_values(Description& d) {
   }
 }
 
+/// The median of a channel's measured values; nothing if there are none.
+std::optional<double> median_value(const std::vector<double>& values,
+                                   const std::vector<std::uint32_t>& used) {
+  std::vector<double> measured;
+  for (const std::uint32_t i : used) {
+    if (!std::isnan(values[i])) measured.push_back(values[i]);
+  }
+  if (measured.empty()) return std::nullopt;
+  const auto middle = measured.begin() + static_cast<std::ptrdiff_t>(measured.size() / 2);
+  std::nth_element(measured.begin(), middle, measured.end());
+  return *middle;
+}
+
+/// Where no incidence is covered enough for an albedo: what one would be if every direction were
+/// like the brightest, and like the middle one.
+void warn_of_implausible_values(const SampleTable& table, const std::vector<std::uint32_t>& used,
+                                Description& d) {
+  double brightest = 0;
+  for (const ChannelSummary& channel : d.channels) {
+    brightest = std::max(brightest, std::numbers::pi * channel.value.maximum);
+  }
+  if (d.used > 0 && brightest < implausibly_small_albedo) {
+    d.warnings.push_back(fmt::format(
+        "were every direction as bright as the brightest, no channel would reflect more than "
+        "{:.2g} of the light: implausibly small; is the quantity, or its unit, what the file says?",
+        brightest));
+  }
+  for (std::size_t c = 0; c < table.channels.size(); ++c) {
+    const auto median = median_value(table.values[c], used);
+    if (!median || std::numbers::pi * *median <= implausibly_large_albedo) continue;
+    d.warnings.push_back(
+        fmt::format("were every direction as bright as the middle one, channel {} would reflect "
+                    "{:.2f} times the light that arrives: implausibly large; is the quantity, or "
+                    "its unit, what the file says?",
+                    table.channels[c], std::numbers::pi * *median));
+    return;
+  }
+}
+
 void warn_of_implausible_albedo(Description& d) {
   struct Extreme {
     double albedo = 0, theta_deg = 0;
@@ -229,7 +270,14 @@ Description describe(const SampleTable& table) {
 
   if (d.used == 0) d.warnings.emplace_back("every sample is masked: there is nothing to fit");
   warn_of_negative_values(d);
-  warn_of_implausible_albedo(d);
+  const bool has_albedo =
+      std::any_of(d.incidences.begin(), d.incidences.end(),
+                  [](const IncidenceSummary& incidence) { return !incidence.albedo.empty(); });
+  if (has_albedo) {
+    warn_of_implausible_albedo(d);
+  } else {
+    warn_of_implausible_values(table, used, d);
+  }
   warn_of_broken_reciprocity(d);
   return d;
 }

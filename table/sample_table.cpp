@@ -16,8 +16,22 @@ std::string_view name(MaskReason reason) {
       return "hole";
     case MaskReason::extrapolated:
       return "extrapolated";
+    case MaskReason::padding:
+      return "padding";
+    case MaskReason::retro:
+      return "retro";
+    case MaskReason::blind_spot:
+      return "blind-spot";
   }
   return "";
+}
+
+std::optional<MaskReason> mask_reason_named(std::string_view text) {
+  for (std::size_t i = 0; i < mask_reason_count; ++i) {
+    const auto reason = static_cast<MaskReason>(i);
+    if (name(reason) == text) return reason;
+  }
+  return std::nullopt;
 }
 
 std::string_view name(Quantity quantity) {

@@ -18,9 +18,14 @@ enum class MaskReason : std::uint8_t {
   horizon,       // a direction within 1e-6 deg of the horizon, or below it
   hole,          // no channel was measured
   extrapolated,  // written by the instrument's software where it did not measure
+  padding,       // zeros that fill the file's grid beyond what was measured
+  retro,         // so near retro-reflection that the instrument shades its own beam
+  blind_spot,    // a viewing direction that the user says the instrument cannot see
 };
-inline constexpr std::size_t mask_reason_count = 4;
+inline constexpr std::size_t mask_reason_count = 7;
 std::string_view name(MaskReason reason);
+/// The reason of that name; nothing if there is none.
+std::optional<MaskReason> mask_reason_named(std::string_view name);
 
 /// What the numbers of a file are; a SampleTable always holds f_r, whatever the file declared.
 enum class Quantity : std::uint8_t { brdf, brdf_cos, reflectance_factor };
@@ -64,6 +69,8 @@ struct SampleTable {
   /// With ReadOptions::keep_angle_text: "theta_i,phi_i,theta_o,phi_o" of each row as the file
   /// wrote them, in the unit of provenance.angles. Else empty.
   std::vector<std::string> angle_text;
+  /// The format has no azimuth of the sample: one stands for all, and what looks anisotropic is not.
+  bool takes_isotropy = false;
   /// What the reader has to tell the user, one sentence each.
   std::vector<std::string> notes;
   Provenance provenance;

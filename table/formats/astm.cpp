@@ -54,14 +54,6 @@ std::optional<KeywordLine> keyword_line(std::string_view line) {
   return KeywordLine{line.substr(0, length), value};
 }
 
-/// The unit that begins `text`, such as "degrees" or "rad".
-std::optional<AngleUnit> unit_named(std::string_view text) {
-  const std::string word = lower(text);
-  if (word.starts_with("deg")) return AngleUnit::degrees;
-  if (word.starts_with("rad")) return AngleUnit::radians;
-  return std::nullopt;
-}
-
 /// What the keyword lines say.
 struct Header {
   std::string sample_name;
@@ -72,22 +64,16 @@ struct Header {
   std::size_t vars_line = 0;
 };
 
-/// A column name without a unit in brackets behind it: "theta_i(deg)". Sets header.unit from it.
-std::string without_unit(std::string_view name, Header& header) {
-  const std::size_t bracket = name.find_first_of("([");
-  if (bracket == std::string_view::npos) return std::string(name);
-  const auto unit = unit_named(name.substr(bracket + 1));
-  if (!unit) return std::string(name);
-  header.unit = unit;
-  return std::string(trimmed(name.substr(0, bracket)));
-}
-
 void read_vars(std::string_view value, Header& header) {
   const bool has_commas = value.find(',') != std::string_view::npos;
   std::vector<std::string_view> names =
       split_fields(value, has_commas ? Separator::comma : Separator::blank);
   if (names.size() > 1 && names.back().empty()) names.pop_back();
-  for (const std::string_view name : names) header.names.push_back(without_unit(name, header));
+  for (const std::string_view written : names) {
+    auto [name, unit] = without_unit(written);
+    header.names.push_back(std::move(name));
+    if (unit) header.unit = unit;
+  }
 }
 
 void read_keyword(const KeywordLine& line, const std::string& place, Header& header) {
@@ -108,8 +94,8 @@ void read_keyword(const KeywordLine& line, const std::string& place, Header& hea
     if (std::from_chars(line.value.data(), end, count).ec == std::errc()) {
       header.point_count = count;
     }
-  } else if (keyword.find("unit") != std::string::npos && unit_named(line.value)) {
-    header.unit = unit_named(line.value);
+  } else if (keyword.find("unit") != std::string::npos && angle_unit_named(line.value)) {
+    header.unit = angle_unit_named(line.value);
   }
 }
 
@@ -141,24 +127,6 @@ std::string_view first_row(LineReader lines) {
   return {};
 }
 
-/// The project's name of a column: the standard calls wo the scatter direction.
-std::string canonical_name(const std::string& written) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> aliases{
-      {{"theta_i", "theta_i"},
-       {"phi_i", "phi_i"},
-       {"theta_s", "theta_o"},
-       {"theta_r", "theta_o"},
-       {"theta_o", "theta_o"},
-       {"phi_s", "phi_o"},
-       {"phi_r", "phi_o"},
-       {"phi_o", "phi_o"}}};
-  const std::string name = lower(written);
-  for (const auto& [alias, canonical] : aliases) {
-    if (name == alias) return std::string(canonical);
-  }
-  return written;
-}
-
 /// Inserts phi_s into names that omit it where the rows have one number more and the other angles
 /// stand first, as goniometers of the Mini-Diff series write it. Returns the note for the user.
 std::optional<std::string> restore_omitted_azimuth(std::vector<std::string>& names,
@@ -166,9 +134,9 @@ std::optional<std::string> restore_omitted_azimuth(std::vector<std::string>& nam
   const std::array<std::string_view, 3> leading{"theta_i", "phi_i", "theta_o"};
   if (field_count != names.size() + 1 || names.size() < leading.size()) return std::nullopt;
   for (std::size_t i = 0; i < leading.size(); ++i) {
-    if (canonical_name(names[i]) != leading[i]) return std::nullopt;
+    if (canonical_column_name(names[i]) != leading[i]) return std::nullopt;
   }
-  const auto is_azimuth = [](const std::string& n) { return canonical_name(n) == "phi_o"; };
+  const auto is_azimuth = [](const std::string& n) { return canonical_column_name(n) == "phi_o"; };
   if (std::any_of(names.begin(), names.end(), is_azimuth)) return std::nullopt;
   names.insert(names.begin() + 3, "phi_s");
   return fmt::format(
@@ -179,7 +147,7 @@ std::optional<std::string> restore_omitted_azimuth(std::vector<std::string>& nam
 
 Columns arrange(const std::vector<std::string>& names, const std::string& place) {
   std::vector<std::string> canonical(names.size());
-  std::transform(names.begin(), names.end(), canonical.begin(), canonical_name);
+  std::transform(names.begin(), names.end(), canonical.begin(), canonical_column_name);
   Columns columns = arrange_columns(canonical, place);
   columns.names = names;
   return columns;

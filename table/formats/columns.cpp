@@ -70,9 +70,56 @@ void arrange_sigmas(const std::map<std::string, std::size_t>& sigmas, const std:
   }
 }
 
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
+}
+
 }  // namespace
 
-Columns arrange_columns(const std::vector<std::string>& names, const std::string& place) {
+std::optional<AngleUnit> angle_unit_named(std::string_view text) {
+  const std::string word = lower(text);
+  if (word.starts_with("deg")) return AngleUnit::degrees;
+  if (word.starts_with("rad")) return AngleUnit::radians;
+  return std::nullopt;
+}
+
+NameAndUnit without_unit(std::string_view name) {
+  if (const std::size_t bracket = name.find_first_of("(["); bracket != std::string_view::npos) {
+    const auto unit = angle_unit_named(name.substr(bracket + 1));
+    if (unit) return {std::string(trimmed(name.substr(0, bracket))), unit};
+  }
+  if (const std::size_t last = name.rfind('_'); last != std::string_view::npos) {
+    const std::string suffix = lower(name.substr(last + 1));
+    if (suffix == "deg" || suffix == "rad") {
+      return {std::string(name.substr(0, last)), angle_unit_named(suffix)};
+    }
+  }
+  return {std::string(name), std::nullopt};
+}
+
+std::string canonical_column_name(const std::string& written) {
+  constexpr std::array<std::string_view, 4> incident{"i", "in", "l", "light"};
+  constexpr std::array<std::string_view, 7> exitant{"o", "out", "s", "r", "v", "e", "viewer"};
+  const std::string name = lower(written);
+  for (const std::string_view angle : {"theta", "phi"}) {
+    if (!name.starts_with(angle)) continue;
+    std::string_view side = std::string_view(name).substr(angle.size());
+    if (side.starts_with('_')) side.remove_prefix(1);
+    const auto is_side = [&](const auto& sides) {
+      return std::find(sides.begin(), sides.end(), side) != sides.end();
+    };
+    if (is_side(incident)) return std::string(angle) + "_i";
+    if (is_side(exitant)) return std::string(angle) + "_o";
+  }
+  return written;
+}
+
+Columns arrange_columns(const std::vector<std::string>& names, const std::string& place,
+                        ChannelNeed need) {
   if (names.empty()) throw FileError(fmt::format("{}: no column names", place));
   Columns columns;
   columns.names = names;
@@ -94,7 +141,7 @@ Columns arrange_columns(const std::vector<std::string>& names, const std::string
       columns.values.push_back(i);
     }
   }
-  if (columns.channels.empty()) {
+  if (columns.channels.empty() && need == ChannelNeed::some) {
     throw FileError(fmt::format(
         "{}: no channel: add a column of values beside the angles, named as you like", place));
   }

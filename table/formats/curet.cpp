@@ -6,11 +6,13 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <string_view>
 #include <utility>
 
 #include "table/file_error.h"
 #include "table/formats/columns.h"
+#include "table/formats/curet_partner.h"
 #include "table/formats/row_fields.h"
 #include "table/formats/sample_writer.h"
 #include "table/formats/text_lines.h"
@@ -38,10 +40,16 @@ std::string place(const NumberedRows& file, const Row& row) {
   return fmt::format("{}:{}", file.text.path, row.line);
 }
 
-NumberedRows read_numbers(const InputFile& file, const std::string& path, Columns columns) {
-  NumberedRows result{.text = {.text = without_byte_order_mark(file.bytes()),
+/// The bytes of one of the two files, and its path for messages.
+struct Bytes {
+  std::string_view content;
+  std::string path;
+};
+
+NumberedRows read_numbers(const Bytes& file, Columns columns) {
+  NumberedRows result{.text = {.text = without_byte_order_mark(file.content),
                                .first_line = 1,
-                               .path = path,
+                               .path = file.path,
                                .separator = Separator::blank,
                                .columns = std::move(columns)},
                       .rows = {}};
@@ -58,7 +66,7 @@ NumberedRows read_numbers(const InputFile& file, const std::string& path, Column
     result.rows.push_back(std::move(row));
   }
   if (result.rows.empty()) {
-    throw FileError(fmt::format("{}: no row of numbers: name a file of CUReT's format", path));
+    throw FileError(fmt::format("{}: no row of numbers: name a file of CUReT's format", file.path));
   }
   return result;
 }
@@ -70,11 +78,13 @@ Columns direction_columns() {
           .channels = {"mean"},
           .values = {5},
           .sigmas = {},
-          .weight = {}};
+          .weight = {},
+          .ignored = {},
+          .constants = {}};
 }
 
-NumberedRows read_directions(const InputFile& file, const std::string& path) {
-  NumberedRows directions = read_numbers(file, path, direction_columns());
+NumberedRows read_directions(const Bytes& file) {
+  NumberedRows directions = read_numbers(file, direction_columns());
   for (std::size_t i = 0; i < directions.rows.size(); ++i) {
     const Row& row = directions.rows[i];
     if (row.fields[0] == double(i + 1)) continue;
@@ -97,33 +107,29 @@ Columns measurement_columns(std::size_t directions) {
 
 void require_whole_and_distinct_numbers(const NumberedRows& measurements) {
   constexpr double largest = std::numeric_limits<int>::max();
-  for (auto row = measurements.rows.begin(); row != measurements.rows.end(); ++row) {
-    const double number = row->fields[0];
+  std::map<double, std::size_t> lines;
+  for (const Row& row : measurements.rows) {
+    const double number = row.fields[0];
     if (number != std::floor(number) || number < 1 || number > largest) {
       throw FileError(fmt::format(
           "{}: material {}, expected a whole number from 1 on: begin each row with its material",
-          place(measurements, *row), number));
+          place(measurements, row), number));
     }
-    const auto same = [&](const Row& other) { return other.fields[0] == number; };
-    const auto first = std::find_if(measurements.rows.begin(), row, same);
-    if (first == row) continue;
+    const auto [first, is_new] = lines.emplace(number, row.line);
+    if (is_new) continue;
     throw FileError(fmt::format("{}: material {} stands in line {} already: remove one of them",
-                                place(measurements, *row), number, first->line));
+                                place(measurements, row), number, first->second));
   }
 }
 
-/// A pair of files, read.
+/// A pair of files, read; refers to their bytes.
 struct Pair {
-  explicit Pair(const CuretFiles& files)
-      : directions_file(files.directions),
-        measurements_file(files.measurements),
-        directions(read_directions(directions_file, files.directions)),
-        measurements(read_numbers(measurements_file, files.measurements,
-                                  measurement_columns(directions.rows.size()))) {
+  Pair(const Bytes& measurements_file, const Bytes& directions_file)
+      : directions(read_directions(directions_file)),
+        measurements(read_numbers(measurements_file, measurement_columns(directions.rows.size()))) {
     require_whole_and_distinct_numbers(measurements);
   }
 
-  InputFile directions_file, measurements_file;
   NumberedRows directions, measurements;
 };
 
@@ -170,26 +176,62 @@ SampleTable table_of(const Row& material, const Pair& pair) {
   return table;
 }
 
+SampleTable table_of_material(int material, const Pair& pair) {
+  const std::vector<Row>& rows = pair.measurements.rows;
+  const auto row =
+      std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.fields[0] == material; });
+  if (row == rows.end()) {
+    throw FileError(
+        fmt::format("{}: no material {}: the file holds {}, the first is {}, the last {}",
+                    pair.measurements.text.path, material, rows.size(), rows.front().fields[0],
+                    rows.back().fields[0]));
+  }
+  return table_of(*row, pair);
+}
+
 }  // namespace
 
 std::vector<SampleTable> read_curet(const CuretFiles& files) {
-  const Pair pair(files);
+  const InputFile measurements(files.measurements);
+  const InputFile directions(files.directions);
+  const Pair pair({measurements.bytes(), files.measurements},
+                  {directions.bytes(), files.directions});
   std::vector<SampleTable> tables;
   for (const Row& material : pair.measurements.rows) tables.push_back(table_of(material, pair));
   return tables;
 }
 
 SampleTable read_curet(const CuretFiles& files, int material) {
-  const Pair pair(files);
+  const InputFile measurements(files.measurements);
+  const InputFile directions(files.directions);
+  return table_of_material(material, Pair({measurements.bytes(), files.measurements},
+                                          {directions.bytes(), files.directions}));
+}
+
+bool is_curet(std::string_view content) { return curet_kind(content) != CuretKind::none; }
+
+SampleTable read_curet_file(std::string_view content, const std::string& path,
+                            const ReadOptions& options) {
+  const CuretPartner partner(content, path);
+  const Bytes given{content, path};
+  const Bytes other{partner.content(), partner.path()};
+  const bool has_measurements = curet_kind(content) == CuretKind::measurements;
+  const Pair pair(has_measurements ? given : other, has_measurements ? other : given);
   const std::vector<Row>& rows = pair.measurements.rows;
-  const auto row =
-      std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.fields[0] == material; });
-  if (row == rows.end()) {
-    throw FileError(fmt::format(
-        "{}: no material {}: the file holds {}, the first is {}, the last {}", files.measurements,
-        material, rows.size(), rows.front().fields[0], rows.back().fields[0]));
+  if (!options.material && rows.size() > 1) {
+    const auto [least, largest] =
+        std::minmax_element(rows.begin(), rows.end(),
+                            [](const Row& a, const Row& b) { return a.fields[0] < b.fields[0]; });
+    throw FileError(fmt::format("{}: holds materials {} to {}: choose one with --material N",
+                                pair.measurements.text.path, least->fields[0], largest->fields[0]));
   }
-  return table_of(*row, pair);
+  SampleTable table =
+      options.material ? table_of_material(*options.material, pair) : table_of(rows.front(), pair);
+  table.provenance.path = path;
+  table.notes.push_back(fmt::format("the {} were read from {}",
+                                    has_measurements ? "directions" : "measurements",
+                                    partner.path()));
+  return table;
 }
 
 }  // namespace gonio::table

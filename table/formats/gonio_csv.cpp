@@ -113,26 +113,86 @@ void read_declaration(std::string_view text, const std::string& place, Declarati
   }
 }
 
-void check_declaration(const Declaration& declaration, const std::string& path) {
-  if (!declaration.quantity) {
-    throw FileError(fmt::format(
-        "{}: no '# quantity:' line in front of the column names, so it is unknown what the numbers "
-        "are: add '# quantity: brdf' (f_r in 1/sr), '# quantity: brdf_cos' (f_r cos(theta_i)) or "
-        "'# quantity: reflectance_factor' (pi f_r)",
-        path));
-  }
-  if (!declaration.angles) {
-    throw FileError(
-        fmt::format("{}: no '# angles:' line in front of the column names, so their unit is "
-                    "unknown: add '# angles: deg' or '# angles: rad'",
-                    path));
-  }
+[[noreturn]] void fail_without_quantity(const std::string& path) {
+  throw FileError(fmt::format(
+      "{}: no '# quantity:' line in front of the column names, so it is unknown what the numbers "
+      "are: add '# quantity: brdf' (f_r in 1/sr), '# quantity: brdf_cos' (f_r cos(theta_i)) or "
+      "'# quantity: reflectance_factor' (pi f_r)",
+      path));
+}
+
+[[noreturn]] void fail_without_angles(const std::string& path) {
+  throw FileError(
+      fmt::format("{}: no '# angles:' line in front of the column names, so their unit is "
+                  "unknown: add '# angles: deg' or '# angles: rad'",
+                  path));
 }
 
 std::vector<std::string> column_names(std::string_view line) {
   std::vector<std::string_view> fields = split_fields(line, Separator::comma);
   if (fields.size() > 1 && fields.back().empty()) fields.pop_back();
   return {fields.begin(), fields.end()};
+}
+
+/// What stands in front of the rows.
+struct Header {
+  Declaration declaration;
+  std::vector<std::string> columns;
+  std::string place;  // of the column names
+  std::size_t first_row_line = 0;
+  std::string_view rows;
+};
+
+Header read_header(std::string_view content, const std::string& path) {
+  LineReader lines(without_byte_order_mark(content));
+  const auto place = [&] { return fmt::format("{}:{}", path, lines.number()); };
+  const std::string_view signature_line = first_line(lines);
+  check_version(version_text(signature_line).value_or(""), place());
+
+  Header header;
+  std::string_view line;
+  bool has_columns = false;
+  while (!has_columns && lines.next(line)) {
+    if (const auto text = comment(line)) {
+      read_declaration(*text, place(), header.declaration);
+    } else {
+      has_columns = !line.empty();
+    }
+  }
+  if (!has_columns) {
+    if (!header.declaration.quantity) fail_without_quantity(path);
+    if (!header.declaration.angles) fail_without_angles(path);
+    throw FileError(
+        fmt::format("{}: no line of column names behind the header: add one such as "
+                    "theta_i,phi_i,theta_o,phi_o,R,G,B, and rows",
+                    path));
+  }
+  header.columns = column_names(line);
+  header.place = place();
+  header.first_row_line = lines.number() + 1;
+  header.rows = lines.rest();
+  return header;
+}
+
+TextRows rows_of(const Header& header, const std::string& path, Columns columns) {
+  return {.text = header.rows,
+          .first_line = header.first_row_line,
+          .path = path,
+          .separator = Separator::comma,
+          .columns = std::move(columns)};
+}
+
+/// The table without samples.
+SampleTable table_of(const Header& header, const std::string& path, Quantity quantity) {
+  if (!header.declaration.angles) fail_without_angles(path);
+  SampleTable table;
+  table.name = header.declaration.name;
+  table.provenance = {.path = path,
+                      .format = "gonio-table 1",
+                      .sha256 = {},
+                      .quantity = quantity,
+                      .angles = *header.declaration.angles};
+  return table;
 }
 
 }  // namespace
@@ -144,41 +204,28 @@ bool is_gonio_csv(std::string_view content) {
 
 SampleTable read_gonio_csv(std::string_view content, const std::string& path,
                            const ReadOptions& options) {
-  LineReader lines(without_byte_order_mark(content));
-  const auto place = [&] { return fmt::format("{}:{}", path, lines.number()); };
-  const std::string_view signature_line = first_line(lines);
-  check_version(version_text(signature_line).value_or(""), place());
+  const Header header = read_header(content, path);
+  if (!header.declaration.quantity) fail_without_quantity(path);
+  const Quantity quantity = *header.declaration.quantity;
+  SampleTable table = table_of(header, path, quantity);
+  const TextRows rows = rows_of(header, path, arrange_columns(header.columns, header.place));
+  read_rows(rows, quantity, table.provenance.angles, options, table);
+  return table;
+}
 
-  Declaration declaration;
-  std::string_view line;
-  bool has_columns = false;
-  while (!has_columns && lines.next(line)) {
-    if (const auto text = comment(line)) {
-      read_declaration(*text, place(), declaration);
-    } else {
-      has_columns = !line.empty();
-    }
-  }
-  check_declaration(declaration, path);
-  if (!has_columns) {
-    throw FileError(
-        fmt::format("{}: no line of column names behind the header: add one such as "
-                    "theta_i,phi_i,theta_o,phi_o,R,G,B, and rows",
-                    path));
-  }
-  const TextRows rows{.text = lines.rest(),
-                      .first_line = lines.number() + 1,
-                      .path = path,
-                      .separator = Separator::comma,
-                      .columns = arrange_columns(column_names(line), place())};
-  SampleTable table;
-  table.name = declaration.name;
-  table.provenance = {.path = path,
-                      .format = "gonio-table 1",
-                      .sha256 = {},
-                      .quantity = *declaration.quantity,
-                      .angles = *declaration.angles};
-  read_rows(rows, *declaration.quantity, *declaration.angles, options, table);
+SampleTable read_gonio_directions(std::string_view content, const std::string& path,
+                                  const ReadOptions& options) {
+  const Header header = read_header(content, path);
+  Columns columns = arrange_columns(header.columns, header.place, ChannelNeed::none);
+  columns.ignored.assign(columns.names.size(), true);
+  for (const std::size_t angle : columns.angles) columns.ignored[angle] = false;
+  columns.channels.clear();
+  columns.values.clear();
+  columns.sigmas.clear();
+  columns.weight.reset();
+  SampleTable table = table_of(header, path, Quantity::brdf);
+  read_rows(rows_of(header, path, std::move(columns)), Quantity::brdf, table.provenance.angles,
+            options, table);
   return table;
 }
 

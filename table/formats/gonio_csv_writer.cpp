@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
 #include "table/channel_names.h"
+#include "table/direction_angles.h"
 #include "table/file_error.h"
 #include "table/formats/columns.h"
 #include "table/formats/gonio_csv.h"
@@ -17,7 +17,6 @@ namespace gonio::table {
 namespace {
 
 constexpr std::size_t piece_size = std::size_t{1} << 16;
-constexpr double radians_per_degree = std::numbers::pi / 180;
 
 /// What a table is called in one line: line ends would begin a new one.
 std::string one_line(std::string_view text) {
@@ -50,12 +49,22 @@ void append_field(double value, fmt::memory_buffer& text) {
   if (!std::isnan(value)) fmt::format_to(std::back_inserter(text), "{}", value);
 }
 
-/// Appends "theta,phi" in degrees. The reader multiplies by radians_per_degree: dividing by it
-/// here leaves one rounding of each.
+/// Appends "theta,phi" in degrees.
 void append_angles(const brdf::Direction<double>& d, fmt::memory_buffer& text) {
-  const double theta = std::atan2(std::hypot(d.x, d.y), d.z) / radians_per_degree;
-  const double phi = std::atan2(d.y, d.x) / radians_per_degree;
-  fmt::format_to(std::back_inserter(text), "{},{}", theta, phi);
+  const AnglesDeg angles = angles_of(d);
+  fmt::format_to(std::back_inserter(text), "{},{}", angles.theta, angles.phi);
+}
+
+/// A direction at the horizon may be below it by rounding.
+bool is_below_horizon(const brdf::Direction<double>& d) { return d.z < -1e-8; }
+
+bool can_be_written(const SampleTable& table, std::size_t i) {
+  return !is_below_horizon(table.wi[i]) && !is_below_horizon(table.wo[i]);
+}
+
+/// Masked for a reason that a reader of the file cannot find again.
+bool becomes_a_hole(MaskReason reason) {
+  return reason != MaskReason::none && reason != MaskReason::horizon && reason != MaskReason::hole;
 }
 
 void append_row(const SampleTable& table, std::span<const ExtraColumn> extra_columns, std::size_t i,
@@ -68,7 +77,7 @@ void append_row(const SampleTable& table, std::span<const ExtraColumn> extra_col
     text.append(table.angle_text[i]);
   }
   // The format has no mask: what nobody measured must not be read back as data.
-  const bool is_measured = table.mask[i] != MaskReason::extrapolated;
+  const bool is_measured = !becomes_a_hole(table.mask[i]);
   const auto append_measured = [&](double value) {
     append_field(is_measured ? value : std::nan(""), text);
   };
@@ -94,12 +103,40 @@ void write_gonio_csv(const SampleTable& table, std::span<const ExtraColumn> extr
   }
   append(fmt::format("{}\n", fmt::join(names, ",")));
   for (std::size_t i = 0; i < table.size(); ++i) {
+    if (!can_be_written(table, i)) continue;
     append_row(table, extra_columns, i, text);
     if (text.size() < piece_size) continue;
     write({text.data(), text.size()});
     text.clear();
   }
   write({text.data(), text.size()});
+}
+
+std::vector<std::string> csv_losses(const SampleTable& table) {
+  std::size_t below = 0;
+  std::array<std::size_t, mask_reason_count> holes{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    if (!can_be_written(table, i)) {
+      ++below;
+    } else if (becomes_a_hole(table.mask[i])) {
+      ++holes[static_cast<std::size_t>(table.mask[i])];
+    }
+  }
+  std::vector<std::string> losses;
+  if (table.takes_isotropy) {
+    losses.emplace_back("that one azimuth of the sample stands for all is not said in the file");
+  }
+  if (below > 0) {
+    losses.push_back(fmt::format(
+        "{} samples with a direction below the horizon, which hold no measurement, are left out",
+        below));
+  }
+  for (std::size_t reason = 0; reason < mask_reason_count; ++reason) {
+    if (holes[reason] == 0) continue;
+    losses.push_back(fmt::format("{} samples masked as {} are written as holes, without the reason",
+                                 holes[reason], name(static_cast<MaskReason>(reason))));
+  }
+  return losses;
 }
 
 }  // namespace gonio::table

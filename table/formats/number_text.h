@@ -100,7 +100,7 @@ inline const char* read_short_decimal(const char* at, const char* end, double& v
 /// Reads the number at `at`, which stands behind the field's leading blanks, and moves `at`
 /// behind it. A leading '+' is accepted; a number too small for double is 0.
 inline NumberText read_number(const char*& at, const char* end, double& value) {
-  if (at == end || *at == ',' || *at == '\n') return NumberText::empty;
+  if (at == end || *at == ',' || *at == ';' || *at == '\n') return NumberText::empty;
   const char* start = at;
   if (*start == '+' && end - start > 1 && start[1] != '-') ++start;
   if (const char* behind = number_text_detail::read_short_decimal(start, end, value)) {

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "table/formats/number_text.h"
@@ -13,6 +14,19 @@ namespace {
 
 bool at_line_end(const char* at, const char* end) { return at == end || *at == '\n'; }
 
+/// Of a separator that is a character.
+char separating_character(Separator separator) {
+  return separator == Separator::semicolon ? ';' : ',';
+}
+
+/// Behind the field at `at`, whatever it holds.
+const char* behind_field(const char* at, const char* end, Separator separator) {
+  return std::find_if(at, end, [&](char c) {
+    return c == '\n' ||
+           (separator == Separator::blank ? is_blank(c) : c == separating_character(separator));
+  });
+}
+
 /// Moves over the separator in front of the next field; false if there is none. `behind_blanks`
 /// is the first character behind the last field that is no blank.
 bool pass_separator(const char*& at, const char* behind_blanks, const char* end,
@@ -22,7 +36,7 @@ bool pass_separator(const char*& at, const char* behind_blanks, const char* end,
     at = behind_blanks;
     return separated;
   }
-  if (*behind_blanks != ',') return false;
+  if (*behind_blanks != separating_character(separator)) return false;
   at = skip_blanks(behind_blanks + 1, end);
   return true;
 }
@@ -83,10 +97,12 @@ std::string complaint(RowFault fault, const std::string& column, const std::stri
 }  // namespace
 
 RowProblem read_fields(const char*& at, const char* end, Separator separator,
-                       std::span<double> fields) {
+                       std::span<double> fields, const std::vector<bool>& ignored) {
   at = skip_blanks(at, end);
   for (std::size_t column = 0; column < fields.size(); ++column) {
-    const NumberText number = read_number(at, end, fields[column]);
+    const bool is_ignored = !ignored.empty() && ignored[column];
+    if (is_ignored) at = behind_field(at, end, separator);
+    const NumberText number = is_ignored ? NumberText::empty : read_number(at, end, fields[column]);
     if (number == NumberText::empty) {
       fields[column] = std::numeric_limits<double>::quiet_NaN();
     } else if (number != NumberText::number) {
@@ -107,8 +123,9 @@ std::vector<std::string_view> split_fields(std::string_view line, Separator sepa
   std::vector<std::string_view> fields;
   line = trimmed(line);
   while (true) {
-    const std::size_t end =
-        separator == Separator::comma ? line.find(',') : line.find_first_of(" \t\r");
+    const std::size_t end = separator == Separator::blank
+                                ? line.find_first_of(" \t\r")
+                                : line.find(separating_character(separator));
     fields.push_back(trimmed(line.substr(0, end)));
     if (end == std::string_view::npos) return fields;
     line.remove_prefix(end + 1);

@@ -35,9 +35,10 @@ struct RowProblem {
 };
 
 /// Reads a row into `fields`, a quiet NaN for each empty one, and moves `at` behind the number
-/// that it read last. One empty field more than there are columns is accepted at the end.
+/// that it read last. One empty field more than there are columns is accepted at the end. Where
+/// `ignored` (empty, or one per field) is true, the field is passed over: NaN.
 RowProblem read_fields(const char*& at, const char* end, Separator separator,
-                       std::span<double> fields);
+                       std::span<double> fields, const std::vector<bool>& ignored = {});
 
 /// The fields of a line as they are written, trimmed.
 std::vector<std::string_view> split_fields(std::string_view line, Separator separator);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <vector>
 
 #include "table/file_error.h"
@@ -123,7 +124,10 @@ struct BadLine {
 
 BadLine read_block(const Block& block, const TextRows& rows, const SampleWriter& writer,
                    SampleTable& table) {
-  std::vector<double> fields(rows.columns.names.size());
+  const Columns& columns = rows.columns;
+  std::vector<double> all_fields(columns.names.size());
+  all_fields.insert(all_fields.end(), columns.constants.begin(), columns.constants.end());
+  const std::span<double> fields(all_fields.data(), columns.names.size());
   std::size_t line = block.first_line;
   std::size_t row = block.first_row;
   for (const char* at = block.begin; at != block.end; ++line) {
@@ -132,8 +136,8 @@ BadLine read_block(const Block& block, const TextRows& rows, const SampleWriter&
       at = behind_line(at, block.end);
       continue;
     }
-    RowProblem problem = read_fields(at, block.end, rows.separator, fields);
-    if (problem.fault == RowFault::none) problem = writer.write(fields, row);
+    RowProblem problem = read_fields(at, block.end, rows.separator, fields, columns.ignored);
+    if (problem.fault == RowFault::none) problem = writer.write(all_fields, row);
     at = behind_line(at, block.end);
     const std::string_view text(begin, static_cast<std::size_t>(at - begin));
     if (problem.fault != RowFault::none)
@@ -188,7 +192,9 @@ void read_rows(const TextRows& rows, Quantity quantity, AngleUnit unit, const Re
   std::vector<Block> blocks = cut_into_blocks(rows.text);
   parallel_for(blocks.size(), options.threads, [&](std::size_t b) { count_lines(blocks[b]); });
   const std::size_t count = number_blocks(blocks, rows.first_line);
-  resize(table, rows.columns, count, options.keep_angle_text, options.threads);
+  // A constant angle has no text in the file.
+  const bool keeps_text = options.keep_angle_text && rows.columns.constants.empty();
+  resize(table, rows.columns, count, keeps_text, options.threads);
   const SampleWriter writer(rows.columns, quantity, unit, table);
   const BadLine bad = read_blocks(blocks, rows, writer, table, options.threads);
   if (bad.number != 0) {

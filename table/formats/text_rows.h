@@ -14,7 +14,7 @@
 
 namespace gonio::table {
 
-enum class Separator { comma, blank };
+enum class Separator { comma, blank, semicolon };
 
 /// A text table behind its header.
 struct TextRows {
