@@ -98,6 +98,12 @@ std::vector<std::string> determinable_models(const table::SampleTable& table,
           fmt::format("{}: left out, it has no rho_s that could be 1 - rho_d", name));
       continue;
     }
+    if (table.takes_isotropy && model.is_anisotropic()) {
+      excluded.push_back(fmt::format(
+          "{}: left out, the file takes the material for isotropic; -m {} fits it all the same",
+          name, name));
+      continue;
+    }
     const BatchModel batch(model);
     if (!subset) {
       const table::SampleFilter filter(table, plain.max_theta_deg);

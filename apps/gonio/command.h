@@ -30,6 +30,7 @@ void add_lut_command(CLI::App& app, Invocation& invocation);
 void add_models_command(CLI::App& app, Invocation& invocation);
 void add_render_command(CLI::App& app, Invocation& invocation);
 void add_synth_command(CLI::App& app, Invocation& invocation);
+void add_table_command(CLI::App& app, Invocation& invocation);
 
 /// A number that is the whole of a text, whatever the locale; nothing if it is none.
 std::optional<double> parse_number(std::string_view text);

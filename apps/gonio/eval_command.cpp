@@ -8,6 +8,7 @@
 
 #include "apps/gonio/command.h"
 #include "apps/gonio/progress.h"
+#include "apps/gonio/table_options.h"
 #include "material/evaluate.h"
 #include "material/material_json.h"
 #include "table/file_error.h"
@@ -21,6 +22,7 @@ struct EvalOptions {
   std::string material;
   std::string wi, wo;
   std::string table;
+  TableOptions reading;
   bool json = false;
 };
 
@@ -93,7 +95,7 @@ void eval_table(const EvalOptions& options) {
   const auto material = material::read_material(options.material);
   const auto table = [&] {
     const ProgressLine progress("reading " + options.table);
-    return table::read(options.table, {.keep_angle_text = true});
+    return read_table(options.table, options.reading, {.keep_angle_text = true});
   }();
   std::vector<std::string> names;
   for (const std::string& channel : material.channels) names.push_back(channel + "_model");
@@ -150,6 +152,7 @@ void add_eval_command(CLI::App& app, Invocation& /*invocation*/) {
                    "Evaluate every row: the table as CSV, with columns <channel>_model")
       ->type_name("TABLE");
   command->add_flag("--json", options->json, "Print the result as JSON");
+  add_table_options(*command, options->reading);
   command->callback([options] { eval(*options); });
 }
 

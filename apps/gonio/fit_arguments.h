@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/gonio/table_options.h"
 #include "brdf/model.h"
 #include "fit/options.h"
 
@@ -13,6 +14,7 @@ namespace gonio::app {
 /// The texts of the command line.
 struct FitArguments {
   std::vector<std::string> tables;
+  TableOptions reading;
   std::optional<std::string> models;
   std::string metric = "cosine-l2";
   std::string loss = "none";

@@ -56,6 +56,7 @@ void run_table(const FitRequest& request, const FitFiles& files, bool as_json,
 
 void run_fit(const FitArguments& arguments, Invocation& invocation) {
   const FitRequest request{.options = options_in(arguments),
+                           .reading = arguments.reading,
                            .models = models_in(arguments),
                            .frame = frame_in(arguments),
                            .command_line = invocation.command_line,
@@ -79,6 +80,7 @@ void add_fit_command(CLI::App& app, Invocation& invocation) {
       ->add_option("TABLE", arguments->tables,
                    "the measured table, in any format; several are a batch")
       ->required();
+  add_table_options(*command, arguments->reading);
   command
       ->add_option("-m,--model", arguments->models,
                    "MODEL[,MODEL..] (see gonio models), or all; without it, all the models "

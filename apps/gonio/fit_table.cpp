@@ -32,12 +32,13 @@ class Stopwatch {
 };
 
 /// The table and the seconds that reading it took, without its digest.
-std::pair<table::SampleTable, double> read_table(const FitRequest& request, const FitFiles& files,
-                                                 FitMessages& messages) {
+std::pair<table::SampleTable, double> timed_table(const FitRequest& request, const FitFiles& files,
+                                                  FitMessages& messages) {
   messages.progress("reading " + files.table);
   const Stopwatch stopwatch;
-  table::SampleTable table = table::read(files.table, {.keep_angle_text = !files.residuals.empty(),
-                                                       .threads = request.options.threads});
+  table::SampleTable table =
+      read_table(files.table, request.reading,
+                 {.keep_angle_text = !files.residuals.empty(), .threads = request.options.threads});
   const double seconds = stopwatch.seconds();
   if (request.with_digest) table.provenance.sha256 = table::sha256_of_file(files.table);
   for (const std::string& note : table.notes) messages.note_on_table(note);
@@ -190,7 +191,7 @@ bool TableFit::has_converged() const {
 }
 
 TableFit fit_table(const FitRequest& request, const FitFiles& files, FitMessages& messages) {
-  auto [table, read_seconds] = read_table(request, files, messages);
+  auto [table, read_seconds] = timed_table(request, files, messages);
   if (!files.residuals.empty()) check_residual_columns(table, request.options);
   const std::vector<brdf::Model> models = models_for(table, request, messages);
   check_settings(request.options, models, table, messages);

@@ -8,6 +8,7 @@
 
 #include "apps/gonio/fit_messages.h"
 #include "apps/gonio/fit_plan.h"
+#include "apps/gonio/table_options.h"
 #include "brdf/model.h"
 #include "fit/fit.h"
 #include "material/material.h"
@@ -18,6 +19,7 @@ namespace gonio::app {
 /// What is asked of every table.
 struct FitRequest {
   fit::Options options;
+  TableOptions reading;
   /// None: all the models that a table can determine.
   std::optional<std::vector<brdf::Model>> models;
   brdf::Frame frame = brdf::Frame::of_table;

@@ -6,6 +6,7 @@
 
 #include "apps/gonio/command.h"
 #include "apps/gonio/info_report.h"
+#include "apps/gonio/table_options.h"
 #include "table/describe.h"
 #include "table/file_error.h"
 #include "table/read.h"
@@ -15,6 +16,7 @@ namespace {
 
 struct InfoOptions {
   std::string table;
+  TableOptions reading;
   bool json = false;
 };
 
@@ -34,7 +36,7 @@ void require_samples(const table::SampleTable& table, const table::Description& 
 }
 
 void run_info(const InfoOptions& options) {
-  table::SampleTable table = table::read(options.table);
+  table::SampleTable table = read_table(options.table, options.reading);
   table.provenance.sha256 = table::sha256_of_file(options.table);
   const table::Description description = table::describe(table);
   if (options.json) {
@@ -53,6 +55,7 @@ void add_info_command(CLI::App& app, Invocation& /*invocation*/) {
       "info", "What a table holds: ranges, coverage, plausibility, and what can be fitted from it");
   info->add_option("TABLE", options->table, "a measured table; the format is told by its content")
       ->required();
+  add_table_options(*info, options->reading);
   info->add_flag("--json", options->json, "print JSON instead of text");
   info->callback([options] { run_info(*options); });
 }

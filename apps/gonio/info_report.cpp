@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <string_view>
 #include <vector>
 
 #include "fit/options.h"
+#include "table/coverage_map.h"
 
 namespace gonio::app {
 namespace {
@@ -74,8 +76,11 @@ std::string reciprocity_text(const Description& d) {
                      d.reciprocity->assumed_isotropy ? ", taking the sample for isotropic" : "");
 }
 
-std::string models_text(const Description& d) {
+std::string models_text(const SampleTable& table, const Description& d) {
   if (d.used == 0) return "nothing";
+  if (table.takes_isotropy) {
+    return "isotropic models: the file takes the material for one, whatever its azimuth";
+  }
   if (d.half_vectors.both)
     return "isotropic and anisotropic models: half vectors lean along x and y";
   if (d.half_vectors.along_x + d.half_vectors.along_y == 0) {
@@ -172,6 +177,70 @@ void add_incidences(std::string& text, const Description& d) {
       "albedo: an estimate; a direction that was not measured counts like the nearest that was.\n";
 }
 
+/// A cell as a character; those of masked samples are the legend's.
+char character_of(const table::CoverageCell& cell) {
+  if (!cell) return '.';
+  switch (*cell) {
+    case MaskReason::none:
+      return '#';
+    case MaskReason::horizon:
+      return '-';
+    case MaskReason::hole:
+      return 'o';
+    case MaskReason::extrapolated:
+      return 'e';
+    case MaskReason::padding:
+      return 'p';
+    case MaskReason::retro:
+      return 'r';
+    case MaskReason::blind_spot:
+      return 'b';
+  }
+  return '?';
+}
+
+void add_legend(std::string& text, const std::vector<table::CoverageMap>& maps) {
+  std::set<MaskReason> reasons;
+  for (const table::CoverageMap& map : maps) {
+    for (const auto& row : map.cells) {
+      for (const table::CoverageCell& cell : row) {
+        if (cell && *cell != MaskReason::none) reasons.insert(*cell);
+      }
+    }
+  }
+  text += "# samples, . none";
+  for (const MaskReason reason : reasons) {
+    fmt::format_to(std::back_inserter(text), ", {} masked as {}", character_of(reason),
+                   table::name(reason));
+  }
+  text += "; left the light's side, right the mirror's.\n";
+}
+
+void add_coverage(std::string& text, const SampleTable& table, const Description& d) {
+  constexpr std::size_t most_maps = 5;
+  const std::vector<table::CoverageMap> maps = table::coverage_maps(table, d, most_maps);
+  if (maps.empty()) return;
+  auto out = std::back_inserter(text);
+  constexpr std::size_t map_width = table::CoverageMap::azimuth_cells + 3;
+  fmt::format_to(out, "\n{:>11}", "theta_i deg");
+  for (const table::CoverageMap& map : maps) {
+    fmt::format_to(out, "  {:<{}}", fmt::format("{:g}", map.theta_i_deg), map_width - 2);
+  }
+  text.erase(text.find_last_not_of(' ') + 1);
+  text += '\n';
+  for (std::size_t row = 0; row < table::CoverageMap::polar_cells; ++row) {
+    fmt::format_to(out, "{:>11}", fmt::format("{}{}", row == 0 ? "theta_o " : "", row * 10));
+    for (const table::CoverageMap& map : maps) {
+      text += "  ";
+      for (const table::CoverageCell& cell : map.cells[row]) text += character_of(cell);
+      text += ' ';
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += '\n';
+  }
+  add_legend(text, maps);
+}
+
 /// Null for a channel without an albedo.
 nlohmann::ordered_json albedo_json(const std::vector<std::optional<double>>& albedo) {
   auto json = nlohmann::ordered_json::array();
@@ -201,10 +270,11 @@ std::string info_text(const SampleTable& table, const Description& d) {
            fmt::format("theta_i {} deg, theta_o {} deg", range_text(d.theta_i_deg),
                        range_text(d.theta_o_deg)));
   add_line(text, "reciprocity", reciprocity_text(d));
-  add_line(text, "can be fitted", models_text(d));
+  add_line(text, "can be fitted", models_text(table, d));
   add_line(text, "metrics", metrics_text(table));
   add_channels(text, d);
   add_incidences(text, d);
+  add_coverage(text, table, d);
   add_list(text, "notes", table.notes);
   add_list(text, "warnings", d.warnings);
   return text;
@@ -255,6 +325,7 @@ nlohmann::ordered_json info_json(const SampleTable& table, const Description& d)
                           {"anisotropic_models", d.half_vectors.both}};
   json["metrics"] = metrics(table);
   json["sigma"] = table.has_sigma();
+  json["takes_isotropy"] = table.takes_isotropy;
   json["weight"] = table.has_weight();
   json["notes"] = table.notes;
   json["warnings"] = d.warnings;

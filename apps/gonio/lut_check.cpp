@@ -12,6 +12,7 @@
 #include "apps/gonio/lut_command.h"
 #include "apps/gonio/lut_options.h"
 #include "apps/gonio/progress.h"
+#include "apps/gonio/table_options.h"
 #include "export/shader_table.h"
 #include "lut/table_model.h"
 #include "material/evaluate.h"
@@ -30,6 +31,7 @@ struct CheckOptions {
   std::string filter;  // linear or nearest; empty: linear
   std::string device;
   std::string samples;
+  TableOptions reading;
   std::string tolerance;
   std::string max_theta = "80";
   bool recommend = false;
@@ -43,9 +45,9 @@ struct Samples {
   std::string reason;
 };
 
-table::SampleTable read_samples(const std::string& path) {
+table::SampleTable read_samples(const std::string& path, const TableOptions& reading) {
   const ProgressLine progress("reading " + path);
-  return table::read(path);
+  return read_table(path, reading);
 }
 
 /// Where a material's table is: as its provenance has it, or from the folder of the material.
@@ -57,11 +59,11 @@ std::string path_of_samples(const std::string& path, const std::string& material
 }
 
 /// The table that the material was fitted to, if it is still there and still the same.
-Samples samples_of(const material::Material& material, const std::string& material_path) {
+Samples samples_of(const CheckOptions& options, const material::Material& material) {
   if (!material.provenance || material.provenance->table.empty()) {
     return {std::nullopt, {}, "the material names no table; --samples TABLE does"};
   }
-  const std::string path = path_of_samples(material.provenance->table, material_path);
+  const std::string path = path_of_samples(material.provenance->table, options.material);
   const std::string& sha256 = material.provenance->sha256;
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
@@ -75,12 +77,20 @@ Samples samples_of(const material::Material& material, const std::string& materi
         {},
         fmt::format("the material's {} has changed since; --samples takes it all the same", path)};
   }
-  return {read_samples(path), path, {}};
+  try {
+    return {read_samples(path, options.reading), path, {}};
+  } catch (const table::FileError& unreadable) {
+    return {std::nullopt,
+            {},
+            fmt::format("the material's table cannot be read ({}); --samples takes it with the "
+                        "options that it was fitted with",
+                        unreadable.what())};
+  }
 }
 
 Samples samples_for(const CheckOptions& options, const material::Material& material) {
-  if (options.samples.empty()) return samples_of(material, options.material);
-  return {read_samples(options.samples), options.samples, {}};
+  if (options.samples.empty()) return samples_of(options, material);
+  return {read_samples(options.samples, options.reading), options.samples, {}};
 }
 
 double parse_number_within(std::string_view option, const std::string& text, double above,
@@ -264,6 +274,7 @@ void add_lut_check_command(CLI::App& lut, Invocation& invocation) {
                     "Find the smallest table within the tolerance and 1 % of the fit's residual, "
                     "and check that one");
   command->add_flag("--json", options->json, "Print the result as JSON");
+  add_table_options(*command, options->reading);
   command->callback([options, &invocation] {
     try {
       check(*options, invocation);

@@ -94,6 +94,7 @@ int run(int argc, char** argv) {
   add_render_command(app, invocation);
   add_models_command(app, invocation);
   add_synth_command(app, invocation);
+  add_table_command(app, invocation);
   const std::vector<CLI::App*> commands = app.get_subcommands([](CLI::App*) { return true; });
   if (argc > 1 && argv[1][0] != '-' &&
       std::none_of(commands.begin(), commands.end(),
