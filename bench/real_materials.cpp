@@ -1,6 +1,7 @@
 // real_materials: every model fitted to every real material, as CSV and as Markdown.
 //
-// Exit status: 0 every fit converged; 1 some did not; 2 wrong usage; 3 no data.
+// Exit status: 0 every fit converged, or with --check the page is right; 1 some did not, or it is
+// not; 2 wrong usage; 3 a file that cannot be read; 77 no data.
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
@@ -8,13 +9,14 @@
 #include <chrono>
 #include <cstdio>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/measured_data.h"
 #include "bench/real_materials_report.h"
 #include "bench/real_materials_study.h"
 #include "bench/study_main.h"
-#include "table/file_error.h"
+#include "table/input_file.h"
 #include "table/output_file.h"
 
 namespace gonio::bench {
@@ -22,7 +24,7 @@ namespace {
 
 struct Settings {
   std::string folder = data_folder().string();
-  std::string csv, markdown;
+  std::string csv, markdown, check;
   std::string metric = "cosine-l2";
   std::vector<std::string> sources;
   std::size_t most = 0;  // materials of a source; 0: all
@@ -43,12 +45,6 @@ std::vector<RealMaterial> chosen_materials(const Settings& settings) {
     source = material.source;
     if (settings.most == 0 || count <= settings.most) chosen.push_back(std::move(material));
   }
-  if (chosen.empty()) {
-    throw table::FileError(fmt::format(
-        "{}: no measurement found: name the folder that holds paints, rgl, merl, curet, zemax with "
-        "--data, or in GONIO_DATA",
-        settings.folder));
-  }
   return chosen;
 }
 
@@ -56,13 +52,36 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// 0 if the page ends with the tables, behind the line that says so.
+int check_page(const std::string& path, const std::string& tables) {
+  constexpr std::string_view border = "<!-- real_materials -->\n\n";
+  const table::InputFile file(path);
+  const std::size_t at = file.bytes().find(border);
+  if (at != std::string_view::npos && file.bytes().substr(at + border.size()) == tables) {
+    fmt::print("{}: the tables are those of now\n", path);
+    return 0;
+  }
+  fmt::print("{}: the tables differ from those of now, which follow\n\n{}", path, tables);
+  return 1;
+}
+
+constexpr int no_data = 77;
+
 int study(const Settings& settings) {
   const fit::Options options{.metric = fit::metric_from_name(settings.metric),
                              .max_theta_deg = settings.max_theta_deg,
                              .threads = settings.threads};
   std::vector<RealResult> results;
   bool all_converged = true;
-  for (const RealMaterial& material : chosen_materials(settings)) {
+  const std::vector<RealMaterial> materials = chosen_materials(settings);
+  if (materials.empty()) {
+    fmt::print(stderr,
+               "real_materials: skipped: no measurement in {}: name the folder that holds paints, "
+               "rgl, merl, curet, zemax with --data, or in GONIO_DATA\n",
+               settings.folder);
+    return no_data;
+  }
+  for (const RealMaterial& material : materials) {
     const auto start = std::chrono::steady_clock::now();
     results.push_back(fit_every_model(material, options));
     const RealResult& result = results.back();
@@ -71,6 +90,7 @@ int study(const Settings& settings) {
       all_converged = false;
       fmt::print(stderr, "{} {}: {} did not converge\n", result.source, result.name, fit.model);
     }
+    if (!result.problem.empty()) fmt::print(stderr, "{}\n", result.problem);
     fmt::print(stderr, "{} {}: {} samples, {} models, best {}, {:.1f} s\n", result.source,
                result.name, result.used, result.fits.size(),
                result.fits.empty() ? "-" : result.fits.front().model, seconds_since(start));
@@ -78,6 +98,7 @@ int study(const Settings& settings) {
   if (!settings.csv.empty()) table::write_file(settings.csv, real_materials_csv(results));
   const std::string markdown = real_materials_markdown(results, settings.metric);
   if (!settings.markdown.empty()) table::write_file(settings.markdown, markdown);
+  if (!settings.check.empty()) return check_page(settings.check, markdown);
   fmt::print("{}", markdown);
   return all_converged ? 0 : 1;
 }
@@ -90,6 +111,7 @@ int run(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--csv", settings.csv, "Write material, model, metric, error as CSV");
   app.add_option("--markdown", settings.markdown, "Write the tables that are printed to a file");
+  app.add_option("--check", settings.check, "Compare a page's tables with those of this run");
   app.add_option("--metric", settings.metric, "What the fits minimise")->capture_default_str();
   app.add_option("--max-theta", settings.max_theta_deg, "Up to this polar angle, in degrees")
       ->capture_default_str();

@@ -53,6 +53,10 @@ void add_errors(std::string& text, const std::vector<RealResult>& results,
   for (const RealResult& result : results) {
     if (result.source != source) continue;
     text += fmt::format("| {} |", result.name);
+    if (result.fits.empty()) {
+      text += " no sample within the polar angles |\n";
+      continue;
+    }
     for (const ModelTally& tally : tallies) {
       const RealFit* fit = fit_of(result, tally.model);
       if (fit == nullptr) {

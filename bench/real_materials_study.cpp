@@ -10,6 +10,7 @@
 #include "brdf/model.h"
 #include "fit/fit.h"
 #include "fit/ranking.h"
+#include "table/file_error.h"
 #include "table/formats/curet.h"
 #include "table/read.h"
 
@@ -50,6 +51,18 @@ std::vector<RealMaterial> curet_materials(const std::filesystem::path& folder) {
   return materials;
 }
 
+/// The models that the table determines, or why there is nothing to fit.
+std::vector<std::string> models_for(const table::SampleTable& table, const fit::Options& options,
+                                    std::string& problem) {
+  std::vector<std::string> excluded;
+  try {
+    return fit::determinable_models(table, options, excluded);
+  } catch (const table::FileError& error) {
+    problem = error.what();
+    return {};
+  }
+}
+
 }  // namespace
 
 std::vector<RealMaterial> real_materials(const std::filesystem::path& folder) {
@@ -72,9 +85,9 @@ RealResult fit_every_model(const RealMaterial& material, const fit::Options& opt
                     .name = material.name,
                     .samples = table.size(),
                     .used = 0,
-                    .fits = {}};
-  std::vector<std::string> excluded;
-  for (const std::string& name : fit::determinable_models(table, options, excluded)) {
+                    .fits = {},
+                    .problem = {}};
+  for (const std::string& name : models_for(table, options, result.problem)) {
     const fit::FitResult fitted = fit::fit(brdf::Model(name), table, options);
     result.used = fitted.used;
     RealFit fit{.model = name, .converged = fitted.converged, .errors = {}};

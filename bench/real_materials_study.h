@@ -35,11 +35,13 @@ struct RealFit {
 struct RealResult {
   std::string source, name;
   std::size_t samples, used;
-  /// By the error under the metric of the fit, the smallest first.
+  /// By the error under the metric of the fit, the smallest first; none if nothing can be fitted.
   std::vector<RealFit> fits;
+  std::string problem;  // why there are none
 };
 
-/// Fits every model that the material's directions can determine.
+/// Fits every model that the material's directions can determine. Throws FileError for a file that
+/// cannot be read.
 RealResult fit_every_model(const RealMaterial& material, const fit::Options& options);
 
 /// How a model did on several materials.

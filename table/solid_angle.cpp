@@ -19,10 +19,10 @@ std::vector<double> cell_edges(std::span<const double> nodes) {
 }  // namespace
 
 std::vector<double> zenith_measures(std::span<const double> theta, double largest) {
-  if (theta.size() < 2) return std::vector<double>(theta.size(), 1.0);
+  std::vector<double> measures(theta.size(), 1);
+  if (theta.size() < 2) return measures;
   std::vector<double> edges = cell_edges(theta);
   for (double& edge : edges) edge = std::clamp(edge, 0.0, largest);
-  std::vector<double> measures(theta.size());
   for (std::size_t i = 0; i < theta.size(); ++i) {
     // cos a - cos b without the cancellation of small angles.
     measures[i] =
@@ -33,14 +33,14 @@ std::vector<double> zenith_measures(std::span<const double> theta, double larges
 
 std::vector<double> azimuth_measures(std::span<const double> phi) {
   constexpr double same_azimuth = 1e-5;  // files round the whole circle to some digits
-  if (phi.size() < 2) return std::vector<double>(phi.size(), 1.0);
+  std::vector<double> measures(phi.size(), 1);
+  if (phi.size() < 2) return measures;
   std::vector<double> edges = cell_edges(phi);
   const double turn = 2 * std::numbers::pi;
   if (std::abs(phi.back() - phi.front() - turn) < same_azimuth) {
     edges.front() = phi.front();
     edges.back() = phi.back();
   }
-  std::vector<double> measures(phi.size());
   for (std::size_t i = 0; i < phi.size(); ++i) measures[i] = edges[i + 1] - edges[i];
   return measures;
 }

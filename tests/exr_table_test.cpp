@@ -32,7 +32,6 @@ using brdf::direction_from_degrees;
 using table::MaskReason;
 using table::SampleTable;
 using testing::HasSubstr;
-using testing::IsEmpty;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -212,7 +211,7 @@ std::string refusal(const std::string& bytes) {
   try {
     read(bytes);
   } catch (const table::FileError& error) {
-    const std::string message = error.what();
+    std::string message = error.what();
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     return message;
   }

@@ -40,7 +40,7 @@ std::string refusal(const std::string& content, const ReadOptions& options) {
   try {
     read_text(content, options);
   } catch (const table::FileError& error) {
-    const std::string message = error.what();
+    std::string message = error.what();
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     return message;
   }

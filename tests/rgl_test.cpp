@@ -295,6 +295,7 @@ TEST(Rgl, RefusesShapesThatContradictEachOther) {
   EXPECT_THAT(with(1, {"theta_i", {3}, {0, 1, 1.2F}}), HasSubstr("field 'vndf': found data for"));
   EXPECT_THAT(with(1, {"theta_i", {2}, {1, 0.5F}}), HasSubstr("rising angles"));
   EXPECT_THAT(with(1, {"theta_i", {2}, {1, 1.7F}}), HasSubstr("rising angles"));
+  EXPECT_THAT(with(1, {"theta_i", {2}, {-1e-6F, 1}}), HasSubstr("rising angles"));
   EXPECT_THAT(with(2, {"ndf", {1, 4}, constant(4, 1)}), HasSubstr("2 x 2 at least"));
   EXPECT_THAT(with(3, {"sigma", {4}, constant(4, 1)}), HasSubstr("1 dimensions, expected 2"));
   EXPECT_THAT(with(4, {"vndf", {1, 2, 3, 3}, constant(18, -1)}), HasSubstr("expected at least 0"));

@@ -71,7 +71,8 @@ std::string merl() {
 }
 
 std::vector<float> constant(std::size_t count, float value) {
-  return std::vector<float>(count, value);
+  std::vector<float> values(count, value);
+  return values;
 }
 
 std::string rgl() {

@@ -24,7 +24,6 @@ using brdf::direction_from_degrees;
 using table::MaskReason;
 using table::SampleTable;
 using testing::AllOf;
-using testing::Each;
 using testing::ElementsAre;
 using testing::HasSubstr;
 

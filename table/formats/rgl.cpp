@@ -97,7 +97,7 @@ std::vector<double> incident_angles(const TensorFile& file, std::string_view nam
   if (angles.empty()) file.refuse(name, "found no angle, expected one at least");
   for (std::size_t i = 0; i < angles.size(); ++i) {
     const bool is_rising = i == 0 || angles[i] > angles[i - 1];
-    if (is_rising && angles[i] >= least - slack && angles[i] <= most + slack) continue;
+    if (is_rising && angles[i] >= least && angles[i] <= most + slack) continue;
     file.refuse(name, fmt::format("number {}: found {}, expected rising angles in radians from "
                                   "{:.4g} to {:.4g}",
                                   i, angles[i], least, most));
