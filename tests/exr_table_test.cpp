@@ -7,6 +7,7 @@
 #include <ImfInputFile.h>
 #include <ImfIntAttribute.h>
 #include <ImfOutputFile.h>
+#include <ImfStringAttribute.h>
 #include <ImfStringVectorAttribute.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -14,8 +15,11 @@
 
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <map>
 #include <random>
 #include <string>
 #include <vector>
@@ -129,6 +133,31 @@ TEST(ExrTable, WithoutTailsNumbersHaveTwentyFourBits) {
     EXPECT_NEAR(back.values[0][i], table.values[0][i], 6e-8 * table.values[0][i]);
     EXPECT_NEAR(back.wo.x[i], table.wo.x[i], 3e-7);
   }
+}
+
+TEST(ExrTable, WithoutTailsNumbersBeyondTheRangeOfFloatStayWhole) {
+  SampleTable table = random_table(40, {"R"});
+  table.values[0].assign(40, 0.5);
+  table.sigma[0].assign(40, 0.25);
+  table.values[0][1] = 1e300;
+  table.sigma[0][1] = 1e-50;
+  const SampleTable back = read(written(table, false));
+  expect_same_bits(back.values[0], table.values[0]);
+  expect_same_bits(back.sigma[0], table.sigma[0]);
+}
+
+TEST(ExrTable, MasksWhatRoundingMovesToTheHorizon) {
+  SampleTable table = random_table(3, {"R"});
+  table.values[0].assign(3, 0.5);
+  table.sigma.clear();
+  table.mask.assign(3, MaskReason::none);
+  table.wo.set(1, direction_from_degrees(89.999997, 0));
+  EXPECT_EQ(read(written(table)).mask, table.mask);
+  EXPECT_EQ(read(written(table, false)).mask[1], MaskReason::horizon);
+}
+
+TEST(ExrTable, RefusesToWriteATableWithoutSamples) {
+  EXPECT_THROW(written(random_table(0, {"R"})), table::FileError);
 }
 
 TEST(ExrTable, ExactlyWrittenAnglesNeedNoTail) {
@@ -272,6 +301,81 @@ TEST(ExrTable, RefusesAnAttributeLargerThanTheFile) {
   const std::int32_t huge = 0x7fffffff;
   std::memcpy(bytes.data() + size, &huge, 4);
   EXPECT_THAT(refusal(bytes), HasSubstr("bytes where"));
+}
+
+/// A table's bytes with what `change` makes of its header and of the pixels of a channel.
+struct Change {
+  std::function<void(Imf::Header&)> header = [](Imf::Header&) {};
+  std::string channel{};
+  std::function<void(std::vector<std::uint32_t>&)> pixels = [](auto&) {};
+};
+
+std::string changed(const std::string& bytes, const Change& change) {
+  exr::MemoryInput input(bytes);
+  Imf::InputFile from(input, 0);
+  Imf::Header header = from.header();
+  const std::int64_t width = header.dataWindow().max.x + 1;
+  const int height = header.dataWindow().max.y + 1;
+  Imf::FrameBuffer buffer;
+  std::map<std::string, std::vector<std::uint32_t>> pixels;
+  for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
+    auto& plane = pixels[channel.name()];
+    plane.resize(static_cast<std::size_t>(width * height));
+    buffer.insert(channel.name(), Imf::Slice::Make(channel.channel().type, plane.data(),
+                                                   Imath::V2i(0, 0), width, height));
+  }
+  from.setFrameBuffer(buffer);
+  from.readPixels(0, height - 1);
+  change.header(header);
+  if (!change.channel.empty()) change.pixels(pixels.at(change.channel));
+  exr::MemoryOutput stream;
+  {
+    Imf::OutputFile to(stream, header, 0);
+    to.setFrameBuffer(buffer);
+    to.writePixels(height);
+  }
+  return stream.text();
+}
+
+TEST(ExrTable, RefusesAttributesThatContradictItsPixels) {
+  SampleTable table = random_table(40, {"R"});
+  table.notes.clear();
+  const std::string bytes = written(table);
+  const auto with = [&](const char* attribute, const auto& value) {
+    return changed(bytes,
+                   {.header = [&](Imf::Header& header) { header.insert(attribute, value); }});
+  };
+  const auto texts = [](const std::vector<std::string>& list) {
+    return Imf::StringVectorAttribute(list);
+  };
+  EXPECT_EQ(refusal(changed(bytes, {})), "accepted");
+  for (const char* taken : {"theta_i", "sigma_R", "weight", "mask"}) {
+    EXPECT_THAT(refusal(with(table::exr_attribute::pixel_channels, texts({taken}))),
+                HasSubstr(taken));
+  }
+  EXPECT_THAT(refusal(with(table::exr_attribute::pixel_channels, texts({"R", "R"}))),
+              HasSubstr("found 2 names"));
+  EXPECT_THAT(refusal(with(table::exr_attribute::axes, texts({"theta_o", "phi_o"}))),
+              HasSubstr("expected theta_i, phi_i, theta_o, phi_o"));
+  EXPECT_THAT(refusal(with(table::exr_attribute::notes, Imf::IntAttribute(0))),
+              HasSubstr("attribute gonioNotes: found the type int"));
+  EXPECT_THAT(refusal(with(table::exr_attribute::isotropy, Imf::StringAttribute("no"))),
+              HasSubstr("attribute gonioTakesIsotropy: found the type string"));
+  EXPECT_FALSE(read(with(table::exr_attribute::isotropy, Imf::IntAttribute(0))).takes_isotropy);
+  EXPECT_TRUE(read(with(table::exr_attribute::isotropy, Imf::IntAttribute(1))).takes_isotropy);
+}
+
+TEST(ExrTable, RefusesPixelsThatAreNoNumbersOfATable) {
+  const std::string bytes = written(random_table(40, {"R"}));
+  const auto with = [&](const char* channel, std::uint32_t bits) {
+    return refusal(
+        changed(bytes, {.channel = channel, .pixels = [&](auto& pixels) { pixels[1] = bits; }}));
+  };
+  // An infinite head must not become the NaN of a hole by the bits of its tail.
+  EXPECT_THAT(with("R", 0x7f800000U), HasSubstr("channel R: found inf"));
+  EXPECT_THAT(with("R.tail", 1U << 29), HasSubstr("expected a number below 2^29"));
+  EXPECT_THAT(with("mask", 99), HasSubstr("channel mask: found 99"));
+  EXPECT_THAT(with("theta_o", 0x7fc00000U), HasSubstr("channel theta_o: found nan"));
 }
 
 TEST(ExrTable, RefusesNumbersThatNoTableHas) {

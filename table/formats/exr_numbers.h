@@ -34,8 +34,8 @@ inline float head_of(double value) {
 
 /// The nearest number of 24 bits; beyond FLOAT's range the nearest end of it.
 inline float rounded(double value) {
-  const float nearest = static_cast<float>(value);
-  return std::isinf(nearest) ? head_of(value) : nearest;
+  if (!has_float_range(value)) return head_of(value);
+  return static_cast<float>(value);
 }
 
 inline std::uint32_t tail_of(double value) {
@@ -43,9 +43,9 @@ inline std::uint32_t tail_of(double value) {
   return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(value) & tail_mask);
 }
 
-/// The number of a head and a tail below 2^29.
+/// The number of a head and a tail below 2^29; infinity has no tail.
 inline double joined(float head, std::uint32_t tail) {
-  if (std::isnan(head)) return std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite(head)) return double{head};
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(double{head}) | tail);
 }
 

@@ -16,8 +16,8 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <set>
 #include <stdexcept>
+#include <type_traits>
 
 #include "exr/attributes.h"
 #include "exr/header_check.h"
@@ -39,15 +39,19 @@ const auto& value_of(const Imf::Header& header, const char* name) {
   return exr::value_of<Attribute>(header, name, "gonio table convert");
 }
 
-/// A text that may be missing.
-std::string text_of(const Imf::Header& header, const char* name) {
-  const auto* attribute = header.findTypedAttribute<Imf::StringAttribute>(name);
-  return attribute == nullptr ? std::string() : attribute->value();
+/// The value of an attribute that may be missing, but not be of another type.
+template <class Attribute>
+auto optional_value_of(const Imf::Header& header, const char* name) {
+  using Value = std::remove_cvref_t<decltype(value_of<Attribute>(header, name))>;
+  return header.find(name) == header.end() ? Value{} : value_of<Attribute>(header, name);
 }
 
-std::vector<std::string> texts_of(const Imf::Header& header, const char* name) {
-  const auto* attribute = header.findTypedAttribute<Imf::StringVectorAttribute>(name);
-  return attribute == nullptr ? std::vector<std::string>() : attribute->value();
+void require_texts(const Imf::Header& header, const char* name,
+                   const std::vector<std::string>& expected) {
+  if (value_of<Imf::StringVectorAttribute>(header, name) != expected) {
+    throw std::runtime_error(
+        fmt::format("attribute {}: expected {}", name, fmt::join(expected, ", ")));
+  }
 }
 
 struct Size {
@@ -234,13 +238,16 @@ double checked_angle(const NumberReader& reader, std::size_t pixel, std::size_t 
 }
 
 void write_sample(const Readers& readers, std::size_t pixel, std::size_t i, SampleTable& table) {
-  table.mask[i] = reason_at(readers, pixel, i);
-  const bool is_horizon = table.mask[i] == MaskReason::horizon;
+  const MaskReason written = reason_at(readers, pixel, i);
+  const bool is_horizon = written == MaskReason::horizon;
   const auto angle = [&](Angle a) {
     return checked_angle(*readers.angles[a], pixel, i, a == theta_i || a == theta_o, is_horizon);
   };
   table.wi.set(i, brdf::direction_from_degrees(angle(theta_i), angle(phi_i)));
   table.wo.set(i, brdf::direction_from_degrees(angle(theta_o), angle(phi_o)));
+  // Rounding to 24 bits may have moved a direction there.
+  const bool is_horizontal = std::max(angle(theta_i), angle(theta_o)) >= 90 - horizon_tolerance_deg;
+  table.mask[i] = written == MaskReason::none && is_horizontal ? MaskReason::horizon : written;
   bool is_hole = true;
   for (std::size_t c = 0; c < readers.values.size(); ++c) {
     const double value = readers.values[c].at(pixel);
@@ -281,25 +288,27 @@ void read_attributes(const Imf::Header& header, SampleTable& table) {
   if (const auto problem = channel_names_problem(table.channels))
     throw std::runtime_error(*problem);
   const auto pixels = value_of<Imf::StringVectorAttribute>(header, exr_attribute::pixel_channels);
-  const std::set<std::string> distinct(pixels.begin(), pixels.end());
-  if (pixels.size() != table.channels.size() || distinct.size() != pixels.size()) {
+  if (pixels.size() != table.channels.size()) {
     throw std::runtime_error(
-        fmt::format("attribute {}: found {} different names, expected one for each of {} channels",
-                    exr_attribute::pixel_channels, distinct.size(), table.channels.size()));
+        fmt::format("attribute {}: found {} names, expected one for each of "
+                    "{} channels",
+                    exr_attribute::pixel_channels, pixels.size(), table.channels.size()));
+  }
+  // Else two numbers would be read from one pixel channel.
+  if (const auto problem = channel_names_problem(pixels)) {
+    throw std::runtime_error(
+        fmt::format("attribute {}: {}", exr_attribute::pixel_channels, *problem));
   }
   const auto& quantity = value_of<Imf::StringAttribute>(header, exr_attribute::quantity);
   if (quantity != "brdf") {
     throw std::runtime_error(
         fmt::format("attribute {}: found '{}', expected brdf", exr_attribute::quantity, quantity));
   }
-  const std::vector<std::string> units{"1/sr", "deg"};
-  if (value_of<Imf::StringVectorAttribute>(header, exr_attribute::units) != units) {
-    throw std::runtime_error(
-        fmt::format("attribute {}: expected 1/sr and deg", exr_attribute::units));
-  }
-  table.name = text_of(header, exr_attribute::name);
-  table.takes_isotropy = header.find(exr_attribute::isotropy) != header.end();
-  table.notes = texts_of(header, exr_attribute::notes);
+  require_texts(header, exr_attribute::units, {"1/sr", "deg"});
+  require_texts(header, exr_attribute::axes, {angle_names.begin(), angle_names.end()});
+  table.name = optional_value_of<Imf::StringAttribute>(header, exr_attribute::name);
+  table.takes_isotropy = optional_value_of<Imf::IntAttribute>(header, exr_attribute::isotropy) != 0;
+  table.notes = optional_value_of<Imf::StringVectorAttribute>(header, exr_attribute::notes);
 }
 
 SampleTable read_table(std::string_view content) {

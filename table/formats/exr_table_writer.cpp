@@ -93,37 +93,42 @@ std::vector<std::string> pixel_channels(const std::vector<std::string>& channels
   return names;
 }
 
-/// The angles of the samples, one after the other: a grid repeats its directions.
-class AngleColumn {
- public:
-  AngleColumn(const DirectionArray& directions, double AnglesDeg::*angle)
-      : directions_(&directions), angle_(angle) {}
-  double operator()(std::size_t i) {
-    const brdf::Direction<double> d = (*directions_)[i];
-    if (d.x != last_.x || d.y != last_.y || d.z != last_.z) {
-      last_ = d;
-      angles_ = angles_of(d);
+/// In degrees, by Angle.
+using AngleColumns = std::array<std::vector<double>, 4>;
+
+/// A grid repeats its directions.
+void append_angles(const DirectionArray& directions, std::vector<double>& theta,
+                   std::vector<double>& phi) {
+  brdf::Direction<double> last{0, 0, 1};
+  AnglesDeg angles{0, 0};
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const brdf::Direction<double> d = directions[i];
+    if (d.x != last.x || d.y != last.y || d.z != last.z) {
+      last = d;
+      angles = angles_of(d);
     }
-    return angles_.*angle_;
+    theta.push_back(angles.theta);
+    phi.push_back(angles.phi);
   }
+}
 
- private:
-  const DirectionArray* directions_;
-  double AnglesDeg::*angle_;
-  brdf::Direction<double> last_{0, 0, 1};
-  AnglesDeg angles_{0, 0};
-};
+AngleColumns angle_columns_of(const SampleTable& table) {
+  AngleColumns columns;
+  for (std::vector<double>& column : columns) column.reserve(table.size());
+  append_angles(table.wi, columns[theta_i], columns[phi_i]);
+  append_angles(table.wo, columns[theta_o], columns[phi_o]);
+  return columns;
+}
 
-std::vector<Quantities> quantities_of(const SampleTable& table,
+std::vector<Quantities> quantities_of(const SampleTable& table, const AngleColumns& angles,
                                       const std::vector<std::string>& pixels) {
-  std::vector<Quantities> all;
-  all.push_back({angle_names[theta_i], AngleColumn(table.wi, &AnglesDeg::theta)});
-  all.push_back({angle_names[phi_i], AngleColumn(table.wi, &AnglesDeg::phi)});
-  all.push_back({angle_names[theta_o], AngleColumn(table.wo, &AnglesDeg::theta)});
-  all.push_back({angle_names[phi_o], AngleColumn(table.wo, &AnglesDeg::phi)});
   const auto column = [](const std::vector<double>& values) {
     return [&values](std::size_t i) { return values[i]; };
   };
+  std::vector<Quantities> all;
+  for (std::size_t a = 0; a < angles.size(); ++a) {
+    all.push_back({angle_names[a], column(angles[a])});
+  }
   for (std::size_t c = 0; c < pixels.size(); ++c) {
     all.push_back({pixels[c], column(table.values[c])});
     if (table.has_sigma()) all.push_back({"sigma_" + pixels[c], column(table.sigma[c])});
@@ -159,7 +164,7 @@ std::vector<Plane> planes_of(const std::vector<Quantities>& all, const SampleTab
                         return std::bit_cast<std::uint32_t>(is_exact ? head_of(value)
                                                                      : rounded(value));
                       }});
-    if (!is_exact) continue;
+    // Also without tails: rounded to FLOAT's range, such a number would lose more than 24 bits.
     if (quantity.is_whole) {
       planes.push_back({quantity.channel + ".high", Imf::UINT, [at = quantity.at](std::size_t i) {
                           return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(at(i)) >>
@@ -168,7 +173,7 @@ std::vector<Plane> planes_of(const std::vector<Quantities>& all, const SampleTab
       planes.push_back({quantity.channel + ".low", Imf::UINT, [at = quantity.at](std::size_t i) {
                           return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(at(i)));
                         }});
-    } else if (quantity.has_tail) {
+    } else if (is_exact && quantity.has_tail) {
       planes.push_back({quantity.channel + ".tail", Imf::UINT,
                         [at = quantity.at](std::size_t i) { return tail_of(at(i)); }});
     }
@@ -258,6 +263,9 @@ void check(const SampleTable& table) {
   if (const auto problem = channel_names_problem(table.channels)) {
     throw FileError(fmt::format("the table's channel names: {}: rename the channel", *problem));
   }
+  if (table.size() == 0) {
+    throw FileError("the table has no samples, expected one at least: an image needs a pixel");
+  }
   if (table.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
     throw FileError("the table has more samples than an EXR image of gonio holds, 2^31 - 1");
   }
@@ -269,7 +277,8 @@ std::vector<std::string> write_exr_table(const SampleTable& table, const ExrTabl
                                          const std::function<void(std::string_view)>& write) {
   check(table);
   const std::vector<std::string> pixels = pixel_channels(table.channels);
-  std::vector<Quantities> quantities = quantities_of(table, pixels);
+  const AngleColumns angles = angle_columns_of(table);
+  std::vector<Quantities> quantities = quantities_of(table, angles, pixels);
   find_tails(table.size(), quantities);
   std::vector<Plane> planes = planes_of(quantities, table, options.exact);
 
@@ -286,8 +295,9 @@ std::vector<std::string> write_exr_table(const SampleTable& table, const ExrTabl
     write_pixels(file, planes, size, table.size());
   }
   write(stream.text());
-  const bool is_rounded = std::any_of(quantities.begin(), quantities.end(),
-                                      [](const Quantities& q) { return q.has_tail || q.is_whole; });
+  const bool is_rounded =
+      std::any_of(quantities.begin(), quantities.end(),
+                  [](const Quantities& q) { return q.has_tail && !q.is_whole; });
   if (options.exact || !is_rounded) return {};
   return {"numbers are rounded to 24 bits, relatively by at most 6e-08"};
 }
