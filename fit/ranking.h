@@ -11,9 +11,10 @@
 namespace gonio::fit {
 
 /// The models of brdf::model_names() whose parameters these directions could tell apart if the
-/// material had them, e.g. no anisotropic one where the half vectors cover no azimuth or the table's
-/// format takes the material for isotropic; each with the given frame. With options.homogeneous only those that can be so. `excluded` gets a sentence
-/// for each of the others.
+/// material had them, e.g. no anisotropic one where the half vectors cover no azimuth or the
+/// table's format takes the material for isotropic; each with the given frame. With
+/// options.homogeneous only those that can be so. `excluded` gets a sentence for each of the
+/// others.
 std::vector<std::string> determinable_models(const table::SampleTable& table,
                                              const Options& options,
                                              std::vector<std::string>& excluded,
