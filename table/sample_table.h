@@ -69,7 +69,8 @@ struct SampleTable {
   /// With ReadOptions::keep_angle_text: "theta_i,phi_i,theta_o,phi_o" of each row as the file
   /// wrote them, in the unit of provenance.angles. Else empty.
   std::vector<std::string> angle_text;
-  /// The format has no azimuth of the sample: one stands for all, and what looks anisotropic is not.
+  /// The format has no azimuth of the sample: one stands for all, and what looks anisotropic is
+  /// not.
   bool takes_isotropy = false;
   /// What the reader has to tell the user, one sentence each.
   std::vector<std::string> notes;

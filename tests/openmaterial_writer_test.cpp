@@ -244,7 +244,7 @@ json metadata_of(const Written& file) { return json::parse(file.text)["metadata"
 
 TEST(OpenMaterialWriter, SaysWhatItIsToldAndElseThatItDoesNotKnow) {
   SampleTable table = random_table(3);
-  table.provenance.path = "/home/someone/paint.csv";
+  table.provenance.path = "/measurements/paint.csv";
   table.provenance.format = "ASTM text";
   const json unknown = metadata_of(written(table));
   EXPECT_EQ(unknown["license"], "NOASSERTION");
