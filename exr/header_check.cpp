@@ -2,11 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace gonio::exr {
 namespace {
@@ -84,6 +86,7 @@ std::uint64_t bytes_per_pixel(Cursor channels) {
     }
     bytes += type == half ? 2 : 4;
   }
+  if (!channels.is_at_end()) fail("the list of channels goes on behind its end");
   return bytes;
 }
 
@@ -97,6 +100,7 @@ void check_preview(Cursor preview) {
   const std::uint64_t bytes = std::uint64_t{width} * height * 4;
   if (width > 65536 || height > 65536) fail("the preview is too large");
   preview.take(static_cast<std::size_t>(bytes));
+  if (!preview.is_at_end()) fail("the preview goes on behind its end");
 }
 
 void check_compression(Cursor value) {
@@ -107,11 +111,35 @@ void check_compression(Cursor value) {
   }
 }
 
+/// The bytes of the types that always have as many: OpenEXR takes these, whatever the header says,
+/// and would read on in the middle of something else. Nothing for other types.
+std::optional<std::size_t> fixed_size(std::string_view type) {
+  constexpr std::array<std::pair<std::string_view, std::size_t>, 24> sizes{
+      {{"int", 4},         {"float", 4},     {"double", 8},   {"box2i", 16},
+       {"box2f", 16},      {"v2i", 8},       {"v2f", 8},      {"v2d", 16},
+       {"v3i", 12},        {"v3f", 12},      {"v3d", 24},     {"m33f", 36},
+       {"m33d", 72},       {"m44f", 64},     {"m44d", 128},   {"chromaticities", 32},
+       {"compression", 1}, {"lineOrder", 1}, {"envmap", 1},   {"keycode", 28},
+       {"rational", 8},    {"timecode", 8},  {"tiledesc", 9}, {"deepImageState", 1}}};
+  for (const auto& [name, size] : sizes) {
+    if (name == type) return size;
+  }
+  return std::nullopt;
+}
+
+void check_size(std::string_view name, std::string_view type, std::string_view value) {
+  const auto expected = fixed_size(type);
+  const bool is_vector = type == "floatvector";
+  if (expected ? value.size() == *expected : !is_vector || value.size() % 4 == 0) return;
+  fail(fmt::format("attribute {}: found {} bytes, not the size of a {}", name, value.size(), type));
+}
+
 void check_attribute(std::string_view name, std::string_view type, std::string_view value,
                      Pixels& pixels) {
+  check_size(name, type, value);
   if (name == "dataWindow" && type == "box2i") {
     pixels.count = pixel_count(Cursor(value));
-  } else if (name == "channels" && type == "chlist") {
+  } else if (type == "chlist") {
     pixels.bytes_each = bytes_per_pixel(Cursor(value));
   } else if (type == "stringvector") {
     check_strings(Cursor(value));

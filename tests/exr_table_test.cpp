@@ -295,6 +295,15 @@ TEST(ExrTable, RefusesAHugeWindowBeforeItIsAllocated) {
   EXPECT_THAT(refusal(bytes), HasSubstr("more than a file of"));
 }
 
+TEST(ExrTable, RefusesANumberOfAnotherSizeThanItsType) {
+  // OpenEXR would take 4 bytes, then the rest of the 10 for the next attribute's name and size.
+  std::string bytes = written(random_table(40, {"R"}));
+  const std::size_t size = bytes.find("gonioSamples") + 13 + 4;
+  const std::int32_t longer = 10;
+  std::memcpy(bytes.data() + size, &longer, 4);
+  EXPECT_THAT(refusal(bytes), HasSubstr("gonioSamples: found 10 bytes, not the size of a int"));
+}
+
 TEST(ExrTable, RefusesAnAttributeLargerThanTheFile) {
   std::string bytes = written(random_table(40, {"R"}));
   const std::size_t size = bytes.find("gonioName") + 10 + 7;
