@@ -14,7 +14,6 @@ namespace gonio::exr {
 namespace {
 
 constexpr std::uint64_t most_expansion = 1040;
-constexpr std::uint64_t least_bytes = 4096;  // a small file's header outweighs its pixels
 
 [[noreturn]] void fail(const std::string& problem) { throw std::runtime_error(problem); }
 
@@ -169,8 +168,7 @@ void check_scan_line_file(std::string_view content) {
   if (!pixels.count || !pixels.bytes_each) fail("no data window or no channels in the header");
   constexpr std::uint64_t most_bytes_per_pixel = 1 << 20;
   if (*pixels.bytes_each > most_bytes_per_pixel) fail("too many channels");
-  const std::uint64_t most =
-      (content.size() + least_bytes) * most_expansion / (*pixels.bytes_each + 1);
+  const std::uint64_t most = content.size() * most_expansion / (*pixels.bytes_each + 1);
   if (*pixels.count > most) {
     fail(fmt::format("{} pixels of {} bytes are declared, more than a file of {} bytes can hold",
                      *pixels.count, *pixels.bytes_each, content.size()));
