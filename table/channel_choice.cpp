@@ -34,7 +34,7 @@ std::optional<std::size_t> position_of(std::span<const std::string> channels,
 [[noreturn]] void refuse(std::span<const std::string> channels, std::string_view part) {
   const auto listed = channels.first(std::min(channels.size(), most_listed));
   throw std::invalid_argument(fmt::format(
-      "--channels {}: the table has no such channel, but {}{}: name channels, ranges "
+      "channels {}: the table has none such, but {}{}: name channels, ranges in the table's order "
       "such as {}..{}, or wavelengths such as 550nm or 500nm..600nm",
       part, fmt::join(listed, ", "),
       listed.size() < channels.size() ? fmt::format(" and {} more", channels.size() - listed.size())

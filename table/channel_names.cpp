@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <string_view>
 #include <unordered_set>
+#include <utility>
+#include <vector>
 
+#include "table/channel_wavelength.h"
 #include "table/formats/columns.h"
 
 namespace gonio::table {
@@ -21,6 +24,26 @@ bool can_head_a_column(std::string_view name) {
 bool names_another_column(std::string_view name) {
   return name == "weight" || name.starts_with("sigma_") ||
          std::find(angle_names.begin(), angle_names.end(), name) != angle_names.end();
+}
+
+/// Two names of one wavelength, such as 550nm and 550.0 nm.
+std::optional<std::string> repeated_wavelength(std::span<const std::string> names) {
+  constexpr double rounding = 1e-9;  // relative
+  std::vector<std::pair<double, std::string_view>> wavelengths;
+  for (const std::string& name : names) {
+    const auto wavelength = wavelength_of_channel(name);
+    if (wavelength && !is_rgb_channel(name)) wavelengths.emplace_back(*wavelength, name);
+  }
+  std::sort(wavelengths.begin(), wavelengths.end());
+  for (std::size_t k = 1; k < wavelengths.size(); ++k) {
+    const auto& [shorter, first] = wavelengths[k - 1];
+    const auto& [longer, second] = wavelengths[k];
+    if (longer - shorter > rounding * longer) continue;
+    return fmt::format(
+        "the channels '{}' and '{}' are of one wavelength, expected each wavelength once", first,
+        second);
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -44,7 +67,7 @@ std::optional<std::string> channel_names_problem(std::span<const std::string> na
       return fmt::format("the channel '{}' stands twice, expected each name once", name);
     }
   }
-  return std::nullopt;
+  return repeated_wavelength(names);
 }
 
 }  // namespace gonio::table

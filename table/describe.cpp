@@ -102,6 +102,20 @@ std::size_t incidence_azimuths(const SampleTable& table,
   return seen.count();
 }
 
+/// The mean of a channel over the projected disc, by the solid angles that the samples stand for.
+double weighted_mean(const SampleTable& table, const std::vector<double>& values,
+                     const std::vector<std::uint32_t>& samples) {
+  double sum = 0;
+  double weights = 0;
+  for (const std::uint32_t i : samples) {
+    if (std::isnan(values[i])) continue;
+    const double weight = table.weight[i] * table.wo.z[i];
+    sum += weight * values[i];
+    weights += weight;
+  }
+  return sum / weights;  // NaN of nothing
+}
+
 IncidenceSummary summarise_incidence(const SampleTable& table, double theta_deg,
                                      const std::vector<std::uint32_t>& samples) {
   IncidenceSummary summary{.theta_deg = theta_deg,
@@ -112,14 +126,21 @@ IncidenceSummary summarise_incidence(const SampleTable& table, double theta_deg,
   for (const std::uint32_t i : samples) {
     points.push_back(relative_to_incidence(table.wi[i], table.wo[i]));
   }
+  const std::size_t measured_points = points.size();
+  // What is measured on one side of the plane of incidence, an isotropic material has on the other.
+  for (std::size_t k = 0; table.takes_isotropy && k < measured_points; ++k) {
+    points.push_back({points[k].x, -points[k].y});
+  }
   const DiscCoverage coverage(points);
+  points.resize(measured_points);
   summary.cells = coverage.cells();
   summary.coverage = coverage.share();
   if (summary.coverage < least_coverage_for_albedo) return summary;
 
   const DiscAverage average(points);
   for (const std::vector<double>& channel : table.values) {
-    const double mean = average.mean(channel, samples);
+    const double mean = table.weight_is_solid_angle ? weighted_mean(table, channel, samples)
+                                                    : average.mean(channel, samples);
     summary.albedo.push_back(std::isnan(mean) ? std::nullopt
                                               : std::optional(std::numbers::pi * mean));
   }
@@ -220,7 +241,10 @@ void warn_of_implausible_albedo(Description& d) {
         "than 1 is not possible; is the quantity what the file says?",
         d.channels[highest->channel].name, highest->albedo, highest->theta_deg));
   }
-  if (highest->albedo < implausibly_small_albedo) {
+  if (highest->albedo <= 0) {
+    d.warnings.emplace_back(
+        "no channel reflects any light, by estimate; are the values what the file says?");
+  } else if (highest->albedo < implausibly_small_albedo) {
     d.warnings.push_back(fmt::format(
         "no channel reflects more than {:.2g} of the light, by estimate: implausibly small; is "
         "the quantity, or its unit, what the file says?",

@@ -105,13 +105,13 @@ const Format* format_of(std::string_view content) {
 void check_options(const Format& format, const std::string& path, const ReadOptions& options) {
   if (describes_columns(options)) {
     throw FileError(
-        fmt::format("{}: this is {}, which says itself what it holds: leave out --columns, "
+        fmt::format("{}: the format is {}, which says itself what it holds: leave out --columns, "
                     "--quantity and --angles",
                     path, format.name));
   }
   if (options.material && !format.holds_materials) {
-    throw FileError(fmt::format("{}: this is {}, which holds one material: leave out --material",
-                                path, format.name));
+    throw FileError(fmt::format(
+        "{}: the format is {}, which holds one material: leave out --material", path, format.name));
   }
 }
 
@@ -142,10 +142,10 @@ GriddedTable read_gridded(const std::string& path, const ReadOptions& options) {
   if (format == nullptr) fail_for_unknown(file.bytes(), path);
   check_options(*format, path, options);
   if (format->read_grid == nullptr) {
-    throw FileError(
-        fmt::format("{}: this is {}, whose samples stand on no grid, so that nothing is defined "
-                    "between them: fit a model (gonio fit) and evaluate that (gonio eval)",
-                    path, format->name));
+    throw FileError(fmt::format(
+        "{}: the format is {}, whose samples stand on no grid, so that nothing is defined "
+        "between them: fit a model (gonio fit) and evaluate that (gonio eval)",
+        path, format->name));
   }
   return format->read_grid(file.bytes(), path);
 }

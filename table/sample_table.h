@@ -64,6 +64,8 @@ struct SampleTable {
   std::vector<std::vector<double>> sigma;
   /// A weight per sample, at least 0; empty if the table carries none.
   std::vector<double> weight;
+  /// The weights are the solid angles that the samples of a grid stand for, but for one factor.
+  bool weight_is_solid_angle = false;
   /// One reason per sample.
   std::vector<MaskReason> mask;
   /// With ReadOptions::keep_angle_text: "theta_i,phi_i,theta_o,phi_o" of each row as the file

@@ -115,6 +115,7 @@ SampleTable merge(std::span<SampleTable> tables) {
   }
   SampleTable merged = std::move(first);
   for (SampleTable& table : tables.subspan(1)) {
+    merged.weight_is_solid_angle = merged.weight_is_solid_angle && table.weight_is_solid_angle;
     merged.takes_isotropy = merged.takes_isotropy && table.takes_isotropy;
     append_samples(merged, table);
     if (merged.name.empty()) merged.name = table.name;

@@ -225,6 +225,40 @@ TEST(Describe, ImplausibleAlbedosAreNamed) {
   EXPECT_TRUE(warnings(0.2).empty());
 }
 
+TEST(Describe, TheAlbedoOfAGridIsByItsSolidAngles) {
+  // f_r = 0.2 but for a cap of 5 deg about the normal with 3, which holds most of the samples.
+  SampleTable table = empty_table();
+  const auto wi = direction_from_degrees(20, 0);
+  const auto add_ring = [&](double lower_deg, double upper_deg, double value) {
+    constexpr double radians = std::numbers::pi / 180;
+    const double solid_angle = std::cos(lower_deg * radians) - std::cos(upper_deg * radians);
+    for (int phi = 0; phi < 360; phi += 10) {
+      add(table, wi, direction_from_degrees((lower_deg + upper_deg) / 2, phi), value);
+      table.weight.push_back(solid_angle);
+    }
+  };
+  for (int k = 0; k < 50; ++k) add_ring(0.1 * k, 0.1 * (k + 1), 3);
+  for (double theta = 5; theta < 90; theta += 5) add_ring(theta, theta + 5, 0.2);
+  table.weight_is_solid_angle = true;
+  const Description d = describe(table);
+  ASSERT_EQ(d.incidences.size(), 1U);
+  const double cap = std::pow(std::sin(5 * std::numbers::pi / 180), 2);
+  EXPECT_NEAR(d.incidences[0].albedo[0].value(), std::numbers::pi * (0.2 + 2.8 * cap), 2e-3);
+  EXPECT_TRUE(d.warnings.empty());
+}
+
+TEST(Describe, OneSideOfAnIsotropicMaterialCoversBoth) {
+  SampleTable table = empty_table();
+  for (int theta = 0; theta <= 88; theta += 2) {
+    for (int phi = 0; phi <= 180; phi += 10) {
+      add(table, direction_from_degrees(20, 0), direction_from_degrees(theta, phi), 0.2);
+    }
+  }
+  EXPECT_LT(describe(table).incidences[0].coverage, 0.7);
+  table.takes_isotropy = true;
+  EXPECT_EQ(describe(table).incidences[0].coverage, 1);
+}
+
 TEST(Describe, MaskedSamplesHolesAndNegativeValuesAreCounted) {
   SampleTable table = goniometer_table({0}, constant(0.1), 0, 10, 80);  // 9 x 36 samples
   table.mask[3] = MaskReason::horizon;

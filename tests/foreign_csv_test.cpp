@@ -102,6 +102,20 @@ TEST(ForeignCsv, TakesAnAngleThatNoColumnHoldsAsAConstant) {
               std::sin(30 * std::numbers::pi / 180) * std::sin(40 * std::numbers::pi / 180), 1e-15);
 }
 
+TEST(ForeignCsv, ReadsAScanInThePlaneOfIncidence) {
+  const SampleTable table = read_text("incidence,exit,R\n10,20,0.1\n20,20,0.2\n",
+                                      said("theta_i,theta_o,R,phi_i=0,phi_o=180"));
+  ASSERT_EQ(table.size(), 2U);
+  EXPECT_EQ(table.values[0][1], 0.2);
+  EXPECT_NEAR(table.wo.x[0], -std::sin(20 * std::numbers::pi / 180), 1e-15);
+  EXPECT_THAT(refusal("incidence,exit,R\n10,20,0.1\n", {}), HasSubstr("--columns"));
+}
+
+TEST(ForeignCsv, RefusesAWavelengthTwice) {
+  EXPECT_THAT(refusal("20,180,30,0,1,2\n", said("theta_i,phi_i,theta_o,phi_o,550nm,550.0 nm")),
+              HasSubstr("of one wavelength"));
+}
+
 TEST(ForeignCsv, KeepsSigmaWeightAndHoles) {
   const SampleTable table = read_text("20,180,30,0,1.5,0.1,2\n20,180,40,0,,,\n",
                                       said("theta_i,phi_i,theta_o,phi_o,R,sigma_R,weight"));

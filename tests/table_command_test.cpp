@@ -132,6 +132,22 @@ TEST(TableConvert, RefusesWrongUse) {
   EXPECT_EQ(run_gonio({"table"}).exit_status, 2);
 }
 
+TEST(TableConvert, ColoursGoWhereMerlHasThem) {
+  const TemporaryFolder folder;
+  const std::string path = small_file(folder, "merl");
+  ASSERT_EQ(convert(path, folder / "rgb.binary").exit_status, 0);
+  ASSERT_EQ(convert(path, folder / "bgr.binary", {"--channels", "B,G,R"}).exit_status, 0);
+  EXPECT_TRUE(content_of(folder / "rgb.binary") == content_of(folder / "bgr.binary"));
+}
+
+TEST(TableConvert, RefusesOptionsThatTheFormatHasNoUseFor) {
+  const TemporaryFolder folder;
+  const std::string path = small_file(folder, "gonio_csv");
+  EXPECT_EQ(convert(path, folder / "out.csv", {"--single"}).exit_status, 2);
+  EXPECT_EQ(convert(path, folder / "out.exr", {"--license", "MIT"}).exit_status, 2);
+  EXPECT_EQ(convert(path, "-", {"--to", "csv"}).exit_status, 2);
+}
+
 TEST(TableCrop, KeepsAnglesAndChannels) {
   const TemporaryFolder folder;
   const CommandResult result =

@@ -179,6 +179,7 @@ TEST(ZemaxData, TheSensorNamesItselfAndTheUnknownSenseOfRotation) {
   const SampleTable t = parse(content_of(path));
   EXPECT_EQ(t.name, "IMX455 lenslet array w/o cover glass");
   EXPECT_THAT(t.notes, ElementsAre(HasSubstr("6993 samples are zeros"),
+                                   HasSubstr("rotations 0 and 360 are one setting"),
                                    HasSubstr("the sense of SampleRotation is not known")));
 }
 

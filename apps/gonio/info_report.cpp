@@ -158,7 +158,7 @@ std::string albedo_heading(const Description& d) {
   return text;
 }
 
-void add_incidences(std::string& text, const Description& d) {
+void add_incidences(std::string& text, const Description& d, bool weight_is_solid_angle) {
   if (d.incidences.empty()) return;
   auto out = std::back_inserter(text);
   fmt::format_to(out, "\n{:>11}  samples  azimuths  covered  albedo {}\n", "theta_i deg",
@@ -172,9 +172,12 @@ void add_incidences(std::string& text, const Description& d) {
                    incidence.azimuths, 100 * incidence.coverage, "",
                    albedo_text(incidence, d.channels.size()));
   }
+  text += "covered: share of the exitant hemisphere's projected solid angle that holds samples.\n";
   text +=
-      "covered: share of the exitant hemisphere's projected solid angle that holds samples.\n"
-      "albedo: an estimate; a direction that was not measured counts like the nearest that was.\n";
+      weight_is_solid_angle
+          ? "albedo: an estimate, by the solid angles that the samples stand for.\n"
+          : "albedo: an estimate; a direction that was not measured counts like the nearest that "
+            "was.\n";
 }
 
 /// A cell as a character; those of masked samples are the legend's.
@@ -273,7 +276,7 @@ std::string info_text(const SampleTable& table, const Description& d) {
   add_line(text, "can be fitted", models_text(table, d));
   add_line(text, "metrics", metrics_text(table));
   add_channels(text, d);
-  add_incidences(text, d);
+  add_incidences(text, d, table.weight_is_solid_angle);
   add_coverage(text, table, d);
   add_list(text, "notes", table.notes);
   add_list(text, "warnings", d.warnings);

@@ -1,5 +1,6 @@
 // gonio table merge: one table of several.
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "apps/gonio/table_command.h"
@@ -25,12 +26,14 @@ void merge(const MergeOptions& options) {
     if (options.output.drop_sigma) tables.back().sigma.clear();
     if (options.output.drop_weight) tables.back().weight.clear();
   }
-  if (tables.size() > 1 && tables.front().has_weight()) {
+  const bool is_weighted = tables.size() > 1 && tables.front().has_weight();
+  table::SampleTable merged = table::merge(tables);
+  if (is_weighted) {
     print_note(
         "warning: the weights of each table are kept as they are: solid angles of different grids "
         "count as the grids overlap");
   }
-  write_table(table::merge(tables), options.output);
+  write_table(std::move(merged), options.output);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/gonio/command.h"
+#include "table/channel_choice.h"
 #include "table/file_error.h"
 #include "table/formats/exr_table_writer.h"
 #include "table/formats/gonio_csv.h"
@@ -26,21 +27,32 @@ using Write = std::function<void(std::string_view)>;
 /// What was lost, a sentence each.
 using Losses = std::vector<std::string>;
 
-Losses write_csv(const SampleTable& table, const TableOutput& /*output*/, const Write& write) {
+Losses write_csv(SampleTable& table, const TableOutput& /*output*/, const Write& write) {
   table::write_gonio_csv(table, {}, write);
   return table::csv_losses(table);
 }
 
-Losses write_exr(const SampleTable& table, const TableOutput& output, const Write& write) {
+Losses write_exr(SampleTable& table, const TableOutput& output, const Write& write) {
   return table::write_exr_table(table, {.exact = !output.single}, write);
 }
 
-Losses write_merl_file(const SampleTable& table, const TableOutput& /*output*/,
-                       const Write& write) {
+/// Puts channels of the names R, G and B into this order, which MERL's planes have.
+void order_colours(SampleTable& table) {
+  std::vector<std::size_t> order;
+  for (const std::string_view colour : {"R", "G", "B"}) {
+    const auto found = std::find(table.channels.begin(), table.channels.end(), colour);
+    if (found == table.channels.end() || table.channels.size() != 3) return;
+    order.push_back(static_cast<std::size_t>(found - table.channels.begin()));
+  }
+  keep_channels(table, order);
+}
+
+Losses write_merl_file(SampleTable& table, const TableOutput& /*output*/, const Write& write) {
+  order_colours(table);
   return table::describe(table::write_merl(table, write));
 }
 
-Losses write_xompt(const SampleTable& table, const TableOutput& output, const Write& write) {
+Losses write_xompt(SampleTable& table, const TableOutput& output, const Write& write) {
   table::OpenMaterialMetadata metadata;
   if (!output.license.empty()) metadata.license = output.license;
   if (!output.copyright.empty()) metadata.copyright = output.copyright;
@@ -51,7 +63,7 @@ Losses write_xompt(const SampleTable& table, const TableOutput& output, const Wr
 struct Format {
   std::string_view name;
   std::string_view ending;
-  Losses (*write)(const SampleTable&, const TableOutput&, const Write&);
+  Losses (*write)(SampleTable&, const TableOutput&, const Write&);
 };
 
 constexpr std::array formats{Format{"csv", ".csv", write_csv}, Format{"exr", ".exr", write_exr},
@@ -93,7 +105,22 @@ void add_output_options(CLI::App& command, TableOutput& output) {
       ->type_name("TEXT");
 }
 
-void check_output(const TableOutput& output) { format_of(output); }
+void check_output(const TableOutput& output) {
+  if (output.path == "-") {
+    throw std::invalid_argument(
+        "-: a file is written, which appears when it is whole: name one, or /dev/stdout with --to");
+  }
+  const Format& format = format_of(output);
+  const auto refuse = [&](std::string_view option, std::string_view only) {
+    throw std::invalid_argument(fmt::format(
+        "{}: it is for {} alone, the output is {}: leave it out", option, only, format.name));
+  };
+  if (output.single && format.name != "exr") refuse("--single", "exr");
+  if (format.name == "openmaterial") return;
+  if (!output.license.empty()) refuse("--license", "openmaterial");
+  if (!output.copyright.empty()) refuse("--copyright", "openmaterial");
+  if (!output.author.empty()) refuse("--author", "openmaterial");
+}
 
 void write_table(SampleTable table, const TableOutput& output) {
   const Format& format = format_of(output);

@@ -94,7 +94,8 @@ void add_table_sample_command(CLI::App& table, Invocation& /*invocation*/) {
   auto options = std::make_shared<SampleOptions>();
   CLI::App* command = table.add_subcommand(
       "sample", "A gridded table's values at any directions: CSV, one row per direction, in order");
-  command->add_option("IN", options->input, "a gridded table: MERL, RGL, Zemax, OpenMATERIAL")
+  command
+      ->add_option("IN", options->input, "a gridded table: MERL, RGL, Zemax, Klems, OpenMATERIAL")
       ->required();
   command
       ->add_option("--at", options->directions,

@@ -6,6 +6,7 @@
 #include <map>
 #include <string_view>
 
+#include "table/channel_names.h"
 #include "table/file_error.h"
 #include "table/formats/text_lines.h"
 
@@ -144,6 +145,11 @@ Columns arrange_columns(const std::vector<std::string>& names, const std::string
   if (columns.channels.empty() && need == ChannelNeed::some) {
     throw FileError(fmt::format(
         "{}: no channel: add a column of values beside the angles, named as you like", place));
+  }
+  if (need == ChannelNeed::some) {
+    if (const auto problem = channel_names_problem(columns.channels)) {
+      throw FileError(fmt::format("{}: {}: rename or remove one", place, *problem));
+    }
   }
   arrange_sigmas(sigmas, place, columns);
   return columns;

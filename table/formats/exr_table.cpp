@@ -307,6 +307,8 @@ void read_attributes(const Imf::Header& header, SampleTable& table) {
   require_texts(header, exr_attribute::units, {"1/sr", "deg"});
   require_texts(header, exr_attribute::axes, {angle_names.begin(), angle_names.end()});
   table.name = optional_value_of<Imf::StringAttribute>(header, exr_attribute::name);
+  table.weight_is_solid_angle =
+      optional_value_of<Imf::IntAttribute>(header, exr_attribute::solid_angle) != 0;
   table.takes_isotropy = optional_value_of<Imf::IntAttribute>(header, exr_attribute::isotropy) != 0;
   table.notes = optional_value_of<Imf::StringVectorAttribute>(header, exr_attribute::notes);
 }

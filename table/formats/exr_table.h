@@ -22,9 +22,10 @@ inline constexpr const char* pixel_channels = "gonioPixels";     // stringvector
 inline constexpr const char* wavelengths = "gonioWavelengths";   // floatvector: nm, if all have one
 inline constexpr const char* mask_reasons = "gonioMaskReasons";  // stringvector: by code
 inline constexpr const char* isotropy = "gonioTakesIsotropy";    // int, 1: one azimuth for all
-inline constexpr const char* name = "gonioName";                 // string
-inline constexpr const char* source = "gonioSource";             // stringvector: file, format, ..
-inline constexpr const char* notes = "gonioNotes";               // stringvector
+inline constexpr const char* solid_angle = "gonioWeightIsSolidAngle";  // int, 1
+inline constexpr const char* name = "gonioName";                       // string
+inline constexpr const char* source = "gonioSource";  // stringvector: file, format, ..
+inline constexpr const char* notes = "gonioNotes";    // stringvector
 }  // namespace exr_attribute
 inline constexpr int exr_table_version = 1;
 

@@ -213,6 +213,7 @@ void insert_attributes(const SampleTable& table, const std::vector<std::string>&
   insert(exr_attribute::axes, list({angle_names.begin(), angle_names.end()}));
   insert(exr_attribute::channels, list(table.channels));
   insert(exr_attribute::pixel_channels, list(pixels));
+  if (table.weight_is_solid_angle) insert(exr_attribute::solid_angle, Imf::IntAttribute(1));
   if (table.takes_isotropy) insert(exr_attribute::isotropy, Imf::IntAttribute(1));
   insert(exr_attribute::name, Imf::StringAttribute(table.name));
   const Provenance& provenance = table.provenance;

@@ -24,7 +24,8 @@ namespace {
 
 /// As much of a file as its kind is judged by.
 constexpr std::size_t sample_size = 4096;
-constexpr std::size_t fewest_columns = 4;
+/// Of a table whose columns nobody named: an angle and more may be missing.
+constexpr std::size_t fewest_columns = 3;
 constexpr std::size_t longest_header = 1000;
 
 bool is_number(std::string_view field) {
@@ -34,14 +35,15 @@ bool is_number(std::string_view field) {
          at == field.data() + field.size();
 }
 
-/// The separator that makes a row of numbers of the line: at least four fields, and three numbers
+/// The separator that makes a row of numbers of the line: enough fields, and up to three numbers
 /// among the first five, since a column of words or a hole may stand among them.
-std::optional<Separator> separator_of_row(std::string_view line) {
+std::optional<Separator> separator_of_row(std::string_view line, std::size_t fewest) {
   for (const Separator separator : {Separator::comma, Separator::semicolon, Separator::blank}) {
     const std::vector<std::string_view> fields = split_fields(line, separator);
-    if (fields.size() < fewest_columns) continue;
+    if (fields.size() < fewest) continue;
     const auto end = fields.begin() + std::min<std::ptrdiff_t>(5, std::ssize(fields));
-    if (std::count_if(fields.begin(), end, is_number) >= 3) return separator;
+    const auto needed = static_cast<std::ptrdiff_t>(std::min<std::size_t>(fewest, 3));
+    if (std::count_if(fields.begin(), end, is_number) >= needed) return separator;
   }
   return std::nullopt;
 }
@@ -66,13 +68,13 @@ std::string_view without_comment_sign(std::string_view line) {
   return trimmed(line.substr(std::min(line.find_first_not_of("#%/"), line.size())));
 }
 
-std::optional<Layout> layout_of(std::string_view content) {
+std::optional<Layout> layout_of(std::string_view content, std::size_t fewest) {
   const std::string_view text = without_byte_order_mark(content);
   LineReader lines(text);
   Layout layout;
   const char* begin = text.data();
   for (std::string_view line; lines.number() < longest_header && lines.next(line);) {
-    if (const auto separator = is_comment(line) ? std::nullopt : separator_of_row(line)) {
+    if (const auto separator = is_comment(line) ? std::nullopt : separator_of_row(line, fewest)) {
       layout.separator = *separator;
       layout.first_row_line = lines.number();
       const std::vector<std::string_view> fields = split_fields(line, *separator);
@@ -263,11 +265,21 @@ TextRows rows_of(const Layout& layout, const Names& names, const std::string& pa
           .columns = arranged(names, fmt::format("{}:{}", path, layout.header_line), need)};
 }
 
-Layout require_layout(std::string_view content, const std::string& path) {
-  const auto layout = layout_of(content);
+/// The columns that the user lists, without constants; else those that a table has at least.
+std::size_t fewest_of(const ReadOptions& options) {
+  if (options.columns.empty()) return fewest_columns;
+  return std::max<std::size_t>(names_in_option(options.columns).names.size(), 1);
+}
+
+Layout require_layout(std::string_view content, const std::string& path,
+                      const ReadOptions& options) {
+  const std::size_t fewest = fewest_of(options);
+  const auto layout = layout_of(content, fewest);
   if (!layout) {
-    throw FileError(
-        fmt::format("{}: no row of at least four numbers: name a file that holds a table", path));
+    throw FileError(fmt::format(
+        "{}: found no row of numbers with {} columns or more, expected {}: name a file "
+        "that holds a table, or correct --columns",
+        path, fewest, options.columns.empty() ? "a table" : "as many as --columns lists"));
   }
   if (has_decimal_commas(*layout)) {
     throw FileError(
@@ -308,12 +320,12 @@ SampleTable read_rows_of(const TextRows& rows, Quantity quantity, AngleUnit unit
 }  // namespace
 
 bool is_foreign_csv(std::string_view content) {
-  return layout_of(content.substr(0, sample_size)).has_value();
+  return layout_of(content.substr(0, sample_size), fewest_columns).has_value();
 }
 
 SampleTable read_foreign_csv(std::string_view content, const std::string& path,
                              const ReadOptions& options) {
-  const Layout layout = require_layout(content, path);
+  const Layout layout = require_layout(content, path, options);
   const Names names = names_of(layout, path, options);
   const AngleUnit unit = require_unit(names, path, options);
   if (!options.quantity) {
@@ -333,7 +345,7 @@ SampleTable read_directions(const std::string& path, const ReadOptions& options)
   ReadOptions with_text = options;
   with_text.keep_angle_text = true;
   if (is_gonio_csv(file.bytes())) return read_gonio_directions(file.bytes(), path, with_text);
-  const Layout layout = require_layout(file.bytes(), path);
+  const Layout layout = require_layout(file.bytes(), path, options);
   const Names names = names_of(layout, path, options);
   const AngleUnit unit = require_unit(names, path, options);
   check_constants(names, unit);

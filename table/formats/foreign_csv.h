@@ -18,7 +18,7 @@
 
 namespace gonio::table {
 
-/// True if a row of at least four numbers stands in the first 4096 bytes.
+/// True if a row of at least three numbers stands in the first 4096 bytes.
 bool is_foreign_csv(std::string_view content);
 
 /// Parses such a table. Throws FileError, also where `options` do not say what is needed: the

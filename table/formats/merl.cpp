@@ -287,6 +287,7 @@ SampleTable read_merl(std::string_view content, const std::string& path,
   table.notes = notes_on(file);
   table.provenance = provenance_of(path);
   table.takes_isotropy = true;
+  table.weight_is_solid_angle = true;
   resize(table, file.grid.bins(), options.threads);
   read_all_values(file, path, options.threads,
                   {table.values[0].data(), table.values[1].data(), table.values[2].data()});

@@ -136,6 +136,7 @@ SampleTable read_openmaterial(std::string_view content, const std::string& path,
     table.mask[i] = mask_of(contents, i);
   }
   table.weight = NestedGrid(contents.angles, all_of(count)).solid_angles(count);
+  table.weight_is_solid_angle = !table.weight.empty();
   table.notes = std::move(contents.notes);
   if (table.weight.empty()) {
     table.notes.emplace_back("the directions form no grid: the samples have no weights");

@@ -27,10 +27,9 @@ using brdf::Direction;
 
 constexpr double pi = std::numbers::pi;
 constexpr double hole = std::numeric_limits<double>::quiet_NaN();
-/// cos of 1e-6 deg from the horizon, as everywhere.
-constexpr double horizon_cosine = 1e-6 * pi / 180;
-/// The file's own angles have 32 bits: its last incidence, pi/2, is off by up to 1e-7.
-constexpr double file_horizon_cosine = 1e-6;
+/// The file's own angles have 32 bits: its last incidence, pi/2, is off by up to 1e-7. What is
+/// nearer to the horizon than ten times that counts as at it.
+constexpr double horizon_cosine = 1e-6;
 
 /// A function over the unit square, bilinear between the nodes of a grid: [row][column].
 struct Grid {
@@ -286,8 +285,8 @@ void add_sample(const Rgl& rgl, std::size_t slice, std::size_t texel, const Dire
                 const Node& node, double wi_measure, std::size_t i, SampleTable& table) {
   table.wi.set(i, wi);
   table.wo.set(i, node.wo);
-  table.weight[i] = wi_measure * node.solid_angle;
-  const bool is_visible = wi.z > file_horizon_cosine && node.wo.z > file_horizon_cosine;
+  const bool is_visible = wi.z > horizon_cosine && node.wo.z > horizon_cosine;
+  table.weight[i] = is_visible ? wi_measure * node.solid_angle : 0;
   table.mask[i] = is_visible ? MaskReason::none : MaskReason::horizon;
   bool is_hole = true;
   const std::size_t nodes = rgl.rows * rgl.columns;
@@ -321,6 +320,7 @@ SampleTable read_rgl(std::string_view content, const std::string& path,
   table.channels = rgl.channels;
   table.provenance = provenance_of(path);
   table.takes_isotropy = true;
+  table.weight_is_solid_angle = true;
   table.wi.resize(count);
   table.wo.resize(count);
   table.values.assign(rgl.channels.size(), std::vector<double>(count));

@@ -21,6 +21,8 @@ namespace gonio::table {
 
 namespace {
 
+constexpr double turn_deg = 360;
+
 constexpr double radians_per_degree = std::numbers::pi / 180;
 
 std::vector<double> in_radians(std::span<const double> degrees) {
@@ -38,6 +40,23 @@ Provenance provenance(const std::string& path) {
           .angles = AngleUnit::degrees};
 }
 
+/// The largest difference between the first rotation and one a whole turn later, as a share of the
+/// largest value; 0 if there is none.
+double difference_after_a_turn(const ZemaxText& text) {
+  if (text.rotations.back() - text.rotations.front() != turn_deg) return 0;
+  const std::size_t count = text.incidences.size() * text.block_size();
+  double largest = 0;
+  double difference = 0;
+  for (const std::vector<double>& values : text.values) {
+    for (const double value : values) largest = std::max(largest, std::abs(value));
+    const double* const last = values.data() + (text.rotations.size() - 1) * count;
+    for (std::size_t i = 0; i < count; ++i) {
+      difference = std::max(difference, std::abs(last[i] - values[i]));
+    }
+  }
+  return largest > 0 ? difference / largest : 0;
+}
+
 std::vector<std::string> notes(const ZemaxText& text, const std::vector<MaskReason>& mask) {
   std::vector<std::string> notes;
   const auto padding = std::count(mask.begin(), mask.end(), MaskReason::padding);
@@ -45,6 +64,12 @@ std::vector<std::string> notes(const ZemaxText& text, const std::vector<MaskReas
     notes.push_back(fmt::format(
         "{} samples are zeros that fill the grid beyond what was measured: masked as padding",
         padding));
+  }
+  if (const double difference = difference_after_a_turn(text); difference > 0) {
+    notes.push_back(fmt::format(
+        "rotations {} and {} are one setting, yet their values differ by up to {:.3g} of the "
+        "largest: both are kept, with half the weight each; gonio table sample takes the first",
+        text.rotations.front(), text.rotations.back(), difference));
   }
   if (text.rotations.size() > 1) {
     notes.emplace_back(
@@ -67,7 +92,8 @@ struct BlockDirections {
   std::vector<brdf::Direction<double>> wo;
 };
 
-BlockDirections block_directions(const ZemaxText& text, double rotation, double incidence) {
+BlockDirections block_directions(const ZemaxText& text, double written, double incidence) {
+  const double rotation = std::fmod(written, turn_deg);  // 360 deg is 0 to the last bit
   const double cos_r = std::cos(rotation * radians_per_degree);
   const double sin_r = std::sin(rotation * radians_per_degree);
   const auto wi = brdf::direction_from_degrees(incidence, 0);
@@ -169,6 +195,7 @@ SampleTable read_zemax(std::string_view content, const std::string& path,
   table.notes = notes(text, table.mask);
   set_directions(text, table);
   table.weight = solid_angles(text);
+  table.weight_is_solid_angle = true;
   table.channels = std::move(text.channels);
   table.values = std::move(text.values);
   return table;
